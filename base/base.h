@@ -290,6 +290,15 @@ static inline int bbm_next_vertex(const bbm_element *e, int v)
     return v + 1 < e->first + e->n ? v + 1 : e->first;
 }
 
+/* The boundary edge that starts at the corner of vertex v: round its node, from element to element
+ * over the bonds. */
+static inline int bbm_edge_at(const bbm_model *m, int v)
+{
+    while (m->vertex[v].edge < 0)
+        v = -1 - m->vertex[v].edge;
+    return m->vertex[v].edge;
+}
+
 static inline const bbm_vertex *bbm_start_of(const bbm_model *m, int edge)
 {
     return &m->vertex[m->edge[edge].a];

@@ -184,11 +184,8 @@ bbm_status bbm_detect_new(bbm_model *m)
     if (!w->reach || !w->pair)
         return BBM_NO_MEMORY;
     number_blocks(m);
-    for (int e = 0; e < m->edges; e++) {        /* the next one: round the node where e ends,    */
-        int v = m->edge[e].b;                   /* from element to element over the bonds        */
-        while (m->vertex[v].edge < 0)
-            v = -1 - m->vertex[v].edge;
-        m->edge[e].after = m->vertex[v].edge;
+    for (int e = 0; e < m->edges; e++) {
+        m->edge[e].after = bbm_edge_at(m, m->edge[e].b);
         m->edge[m->edge[e].after].before = e;
         reach_of(m, e)->depth = m->info.penetration;    /* in a run contacts may be as deep */
         reach_of(m, e)->girth += starting(m, e).length;
@@ -208,53 +205,42 @@ void bbm_foresee_step(bbm_model *m)
     const double h = bbm_is_static(m) ? 0 : m->h;
 
     for (int i = 0; i < m->elements; i++) {
-        const bbm_element *e = &m->element[i];
         for (int a = 0; a < 6; a++)
-            m->D[6 * i + a] = e->V[a] * h;
+            m->D[6 * i + a] = m->element[i].V[a] * h;
         m->scratch->reach[i].travel = 0;
     }
     m->detections = 0;
 }
 
-/* How far the point of the boundary at v moves by D. */
-static void move_point(const bbm_model *m, int v, double u[2])
+typedef struct { double x, y, far; } displacement;      /* m; far: its length                 */
+
+/* How the point of the boundary at v moves by D. */
+static displacement move_point(const bbm_model *m, int v)
 {
     const bbm_vertex *P = &m->vertex[v], *Q = &m->vertex[bbm_partner_of(m, v)];
-    double w[2];
+    double u[2], w[2];
 
     bbm_move(bbm_motion_of(m), &m->element[P->element], &m->D[6 * P->element], P->x, P->y, u);
     bbm_move(bbm_motion_of(m), &m->element[Q->element], &m->D[6 * Q->element], Q->x, Q->y, w);
-    u[0] = (u[0] + w[0]) / 2;
-    u[1] = (u[1] + w[1]) / 2;
-}
-
-static double way_of(const bbm_model *m, int e)
-{
-    double u[2];
-
-    move_point(m, m->edge[e].a, u);
-    return hypot(u[0], u[1]);
+    const double x = (u[0] + w[0]) / 2, y = (u[1] + w[1]) / 2;
+    return (displacement){ x, y, hypot(x, y) };
 }
 
 /* How far two corners move past each other along t by D. */
 static double slip_between(const bbm_model *m, int P, int Q, bbm_direction t)
 {
-    double u[2], v[2];
+    const displacement u = move_point(m, m->edge[P].a), v = move_point(m, m->edge[Q].a);
 
-    move_point(m, m->edge[P].a, u);
-    move_point(m, m->edge[Q].a, v);
-    return fabs((u[0] - v[0]) * t.x + (u[1] - v[1]) * t.y);
+    return fabs((u.x - v.x) * t.x + (u.y - v.y) * t.y);
 }
 
 /* By how much an edge turns by D. */
 static double turn_of(const bbm_model *m, int e)
 {
     const bbm_direction t = m->edge[e].along;
-    double u[2], v[2];
+    const displacement u = move_point(m, m->edge[e].a), v = move_point(m, m->edge[e].b);
+    const double x = v.x - u.x, y = v.y - u.y;
 
-    move_point(m, m->edge[e].a, u);
-    move_point(m, m->edge[e].b, v);
-    const double x = v[0] - u[0], y = v[1] - u[1];
     return atan2(t.x * y - t.y * x, t.length + t.x * x + t.y * y);
 }
 
@@ -264,7 +250,8 @@ int bbm_moved_too_far(const bbm_model *m)
     for (int e = 0; e < m->edges; e++) {
         const int i = m->edge[e].element;
         const double turn = fmax(fabs(m->D[6 * i + 2]), fabs(turn_of(m, e)));
-        if (way_of(m, e) > reach_of(m, e)->travel || turn > m->scratch->reach[i].turn)
+        if (move_point(m, m->edge[e].a).far > reach_of(m, e)->travel
+            || turn > m->scratch->reach[i].turn)
             return 1;
     }
     return 0;
@@ -285,7 +272,8 @@ static double foresee(bbm_model *m)
     for (int e = 0; e < m->edges; e++) {
         reach *b = reach_of(m, e), *own = &m->scratch->reach[m->edge[e].element];
         own->turn = fmax(own->turn, 2 * fabs(turn_of(m, e)) + PARALLEL / 2);
-        b->travel = fmax(b->travel, 1.1 * way_of(m, e) + b->depth + rounding_of(m, e) / 2);
+        const double way = 1.1 * move_point(m, m->edge[e].a).far;
+        b->travel = fmax(b->travel, way + b->depth + rounding_of(m, e) / 2);
         most = fmax(most, b->travel);
     }
     return most;
@@ -556,9 +544,8 @@ static int is_near(const bbm_model *m, int corner, int e)
     const projection f = project(m, corner, e);
 
     if (m->edge[e].first == m->edge[corner].first
-        || (!is_corner(m, corner) && !bbm_carries(m, corner, e)))
-        return 0;
-    if (fmax(f.d, f.beyond) > approach + start_depth(m, corner, e))
+        || (!is_corner(m, corner) && !bbm_carries(m, corner, e))
+        || fmax(f.d, f.beyond) > approach + start_depth(m, corner, e))
         return 0;
     return find_closed(m, corner, e)
         || (-f.d <= approach + fmax(deep, rounding_between(m, corner, e))
@@ -576,11 +563,10 @@ static int is_hidden(const bbm_model *m, pair p)
                        + of[m->edge[p.edge].element].turn;
     const double angle = project(m, p.corner, p.edge).d > 0 ? turns : PARALLEL;
 
-    if (is_held(m, p.corner) && is_held(m, p.edge))
-        return 1;
-    return !find_closed(m, p.corner, p.edge)
-        && (m->edge[p.corner].is_inner || is_covered(m, p.corner, p.edge)
-            || !can_enter(m, p.corner, p.edge, STILL, angle));
+    return (is_held(m, p.corner) && is_held(m, p.edge))
+        || (!find_closed(m, p.corner, p.edge)
+            && (m->edge[p.corner].is_inner || is_covered(m, p.corner, p.edge)
+                || !can_enter(m, p.corner, p.edge, STILL, angle)));
 }
 
 /* Adds a corner and an edge to the pairs, if they are near. */
@@ -754,10 +740,9 @@ static void drop_pairs(bbm_model *m, int (*is_dropped)(const bbm_model *m, pair 
 static const bbm_contact *find_ancestor(const bbm_model *m, pair p)
 {
     const bbm_contact *old = find_closed(m, p.corner, p.edge);
-    const int end = end_near(m, p.corner, p.edge) != p.edge;
 
     for (meeting k = FLUSH; k <= OTHER && !old; k++) {
-        const pair q = meet(m, p, end, k);
+        const pair q = meet(m, p, end_near(m, p.corner, p.edge) != p.edge, k);
         if (are_parallel(m, p.edge, q.edge, 0) && find_pair(m, q) < 0)
             old = find_closed(m, q.corner, q.edge);
     }
@@ -912,7 +897,9 @@ void bbm_end_distances(const bbm_model *m, const bbm_contact *c, double anchor, 
 
     for (int k = 0; k < 3; k++) {
         bbm_point_at(m, P[k], at[k]);
-        move_point(m, P[k], u[k]);
+        const displacement way = move_point(m, P[k]);
+        u[k][0] = way.x;
+        u[k][1] = way.y;
     }
     for (int a = 0; a < 2; a++) {
         const double at0 = at[2][a] + anchor * (at[1][a] - at[2][a]);
@@ -942,12 +929,6 @@ static int is_on_edge(const bbm_model *m, const bbm_contact *c, double t, double
 
     return (1 - t) * s - t * c->trial.past[0] >= off
         && (1 - t) * (l - s) - t * c->trial.past[1] >= off;
-}
-
-/* The same from where P crosses the line to the end of the step. */
-static int stays_on_edge(const bbm_model *m, const bbm_contact *c, double off)
-{
-    return is_on_edge(m, c, fmin(1, crossed_at(m, c)), off) && is_on_edge(m, c, 1, off);
 }
 
 /* Whether P may come in over its line, if it crosses it: as its sides lie at the end of the step,
@@ -996,16 +977,17 @@ static int lies_along(const bbm_model *m, const bbm_contact *c)
  * was closed at the start of the step, or else that goes before. */
 static int counts(const bbm_model *m, const bbm_contact *r, const bbm_contact *c)
 {
-    const double later = crossed_at(m, r) - crossed_at(m, c);
-    const double over_r = r->trial.d_n0 + fmin(1, crossed_at(m, c)) * (r->d_n - r->trial.d_n0);
+    const double later = crossed_at(m, r) - crossed_at(m, c), t = fmin(1, crossed_at(m, c));
+    const double over_r = r->trial.d_n0 + t * (r->d_n - r->trial.d_n0);
+    const double off = rounding_between(m, c->corner, c->edge);
 
     if (r->corner != c->corner && later > TIE
-        && stays_on_edge(m, c, rounding_between(m, c->corner, c->edge)))
+        && is_on_edge(m, c, t, off) && is_on_edge(m, c, 1, off))
         return 0;
     if (r->state != BBM_OPEN)
         return 1;
     if (r->d_n >= 0)
-        return over_r >= (c->trial.was_closed ? 0 : -rounding_between(m, c->corner, c->edge));
+        return over_r >= (c->trial.was_closed ? 0 : -off);
     if (c->trial.was_closed && crossed_at(m, r) > 1)
         return 0;
     if (crossed_at(m, r) > 1 && crossed_at(m, c) > 1) {

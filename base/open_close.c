@@ -198,10 +198,8 @@ static bbm_contact_state find_next_state(const bbm_model *m, const bbm_contact *
 /* The force by which a state fails to fit the solution; of an open one the N if it were closed. */
 static double misfit(const bbm_model *m, const bbm_contact *c)
 {
-    if (c->state == BBM_OPEN)
-        return bbm_normal_force(m, c->d_n - c->rest);
-    if (c->trial.next_state == BBM_OPEN)
-        return -c->N;
+    if (c->state == BBM_OPEN || c->trial.next_state == BBM_OPEN)
+        return fabs(bbm_normal_force(m, c->d_n - c->rest));
     return fabs(fabs(c->T) - bbm_shear_strength(&c->strength, c->N));
 }
 

@@ -220,10 +220,9 @@ static void update_element(const bbm_model *m, bbm_element *e, bbm_vertex vertex
     for (int a = 0; a < 3; a++) {
         for (int b = 0; b < 3; b++)
             e->stress[a] += E[a][b] * e->D[3 + b];
+        e->szz += e->out_of_plane * (E[0][a] + E[1][a]) * e->D[3 + a];
         e->sum[a] += e->D[a];
     }
-    for (int b = 0; b < 3; b++)
-        e->szz += e->out_of_plane * (E[0][b] + E[1][b]) * e->D[3 + b];
     if (bbm_is_static(m))
         memset(e->V, 0, sizeof e->V);
     else

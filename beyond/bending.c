@@ -206,11 +206,9 @@ void bbm_turn_opening(const bbm_element *i, const bbm_element *j, bbm_gap *g)
  * choose the other element. */
 int bbm_find_partner(const bbm_model *m, int v)
 {
-    int start = v;
+    const bbm_edge *e = &m->edge[bbm_edge_at(m, v)];
+    const int start = e->a, end = m->edge[e->before].b;
 
-    while (m->vertex[start].edge < 0)
-        start = -1 - m->vertex[start].edge;
-    const int end = m->edge[m->edge[m->vertex[start].edge].before].b;
     if (m->beyond->bonding != BBM_MOMENT || (v != start && v != end))
         return v;
     return v == start ? end : start;

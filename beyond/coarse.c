@@ -437,14 +437,13 @@ static void interpolate(const bbm_matrix *K, const coarse_space *c)
         coarse_row *r = &c->row[i];
         double *z = &c->z[6 * i], (*Q)[4] = r->Q, s[4] = { 0 };
         memset(z, 0, 6 * sizeof *z);
-        for (const coarse_corner *a = r->corner; a < r[1].corner; a++) {
+        for (const coarse_corner *a = r->corner; a < r[1].corner; a++)
             for (int k = 0; k < 2; k++) {
                 const double x = c->x[2 * a->node + k];
                 z[k] += a->P.f * x;
                 s[2 * k] += a->P.fx * x;
                 s[2 * k + 1] += a->P.fy * x;
             }
-        }
         for (int a = 0; a < 4; a++)
             z[2 + a] = Q[a][0] * s[0] + Q[a][1] * s[1] + Q[a][2] * s[2] + Q[a][3] * s[3];
     }

@@ -304,14 +304,6 @@ bbm_pass bbm_break_bonds(bbm_model *m)
 
 /* ------------------------------------------------------------------------------------ fragments */
 
-/* As the detection finds them. */
-static void sort_contacts(bbm_model *m)
-{
-    qsort(m->contact, (size_t)m->contacts, sizeof *m->contact, bbm_compare_pairs);
-    for (int k = m->contacts - 1; k >= 0; k--)
-        m->edge[m->contact[k].corner].contact = k;
-}
-
 /* Room for more contacts. */
 static bbm_status widen_contacts(bbm_model *m, int more)
 {
@@ -329,9 +321,7 @@ static void part_contacts(bbm_model *m, const int shares[], int n)
 {
     for (int k = 0; k < n; k++) {
         bbm_contact *c = &m->contact[k];
-        int other = m->vertex[shares[k]].edge;
-        while (other < 0)
-            other = m->vertex[-1 - other].edge;
+        const int other = bbm_edge_at(m, shares[k]);
         if (other == c->corner)
             continue;
         c->N /= 2;
@@ -346,7 +336,7 @@ static void part_contacts(bbm_model *m, const int shares[], int n)
         c->rest = v[0].d + c->N / m->par.p_n;
         c->anchor = (c->T / m->par.p_s - v[1].d) / m->edge[c->edge].along.length;
     }
-    sort_contacts(m);
+    qsort(m->contact, (size_t)m->contacts, sizeof *m->contact, bbm_compare_pairs);
 }
 
 /* What has broken in the last step is a boundary, and what has come off is a body. Without memory
@@ -438,7 +428,9 @@ bbm_status bbm_catch_corners(bbm_model *m, double search)
         if (widen_contacts(m, 1))
             return BBM_NO_MEMORY;
         m->contact[m->contacts++] = c;
-        sort_contacts(m);
+        qsort(m->contact, (size_t)m->contacts, sizeof *m->contact, bbm_compare_pairs);
+        for (int k = m->contacts - 1; k >= 0; k--)
+            m->edge[m->contact[k].corner].contact = k;
         y->caught++;
         y->passed[0] = -1;
         m->scratch->pairs = 0;

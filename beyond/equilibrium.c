@@ -31,14 +31,14 @@
 #define INSIDE 1e-10
 #define UNLOADED 1e-9
 
-/* Centre and size of each body, the side of a square of its area. No forces. */
+/* Centre and size of each body, the side of a square of its area. No forces. A body is noted at its
+ * first element, which begins it before the others add to it. */
 static void begin_bodies(bbm_model *m)
 {
     bbm_balance *body = m->beyond->balance;
 
-    for (int i = 0; i < m->elements; i++)
-        body[i] = (bbm_balance){ .inside = m->K->forces[m->K->component[i]] };
     for (int i = 0; i < m->elements; i++) {
+        body[i] = (bbm_balance){ .inside = m->K->forces[m->K->component[i]] };
         bbm_balance *b = &body[m->beyond->body[i]];
         const bbm_element *e = &m->element[i];
         b->area += e->A;

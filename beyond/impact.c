@@ -180,7 +180,6 @@ static void start_elements(bbm_model *m, const bbm_model *end)
 
     for (int i = 0; i < m->elements; i++) {
         bbm_element *e = &m->element[i];
-        const int kept = account_of(m, i)->jumps > 0;
         *e = end->element[i];
         e->middle = NULL;
         bbm_element_geometry(e, &m->vertex[e->first]);
@@ -195,8 +194,8 @@ static void start_elements(bbm_model *m, const bbm_model *end)
             e->V[a] *= account_of(m, i)->jumps ? 0.5 : 0;
             m->D[6 * i + a] = m->h * e->V[a];
         }
-        for (int a = 0; a < 9; a++)
-            e->stress[a / 3] -= kept * E[a / 3][a % 3] * m->D[6 * i + 3 + a % 3];
+        for (int a = 0; a < 9 && account_of(m, i)->jumps > 0; a++)
+            e->stress[a / 3] -= E[a / 3][a % 3] * m->D[6 * i + 3 + a % 3];
         if (account_of(m, i)->jumps && mobility(m, i) > 0)
             heaviest = fmax(heaviest, 1 / mobility(m, i));
     }
@@ -294,10 +293,8 @@ static int find_causes(const bbm_model *m, const bbm_model *end)
             c->state = BBM_LOCK;
             c->trial.time_left = 0;
         }
-    for (int v = 0; v < m->vertices; v++) {
-        bbm_account *of = account_of(m, m->vertex[v].element);
-        any |= of->jumps |= moves(m, m->vertex[v].node);
-    }
+    for (int v = 0; v < m->vertices; v++)
+        any |= account_of(m, m->vertex[v].element)->jumps |= moves(m, m->vertex[v].node);
     return any;
 }
 

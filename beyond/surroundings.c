@@ -240,8 +240,6 @@ static void catch_node(bbm_model *m, int n, int directions)
  * support so far. Such nodes are caught. */
 void bbm_place_supports(bbm_model *m)
 {
-    const double left = 1 - m->beyond->share;
-
     for (int n = 0; n < m->nodes; n++) {
         bbm_support *s = &m->beyond->support[n];
         const bbm_vertex *P = &m->vertex[m->adjacent[m->adjacent_first[n]]];
@@ -255,7 +253,7 @@ void bbm_place_supports(bbm_model *m)
             s->rate[a] = anew & 1 << a ? v[a] : s->rate[a];
             s->part[1][a] = 0;
             if (s->moved[a] != 0)
-                m->node[n].wall[a] = s->to[a] - left * s->moved[a];
+                m->node[n].wall[a] = s->to[a] - (1 - m->beyond->share) * s->moved[a];
         }
         s->held = m->node[n].held;
     }
