@@ -510,7 +510,7 @@ int bbm_carries(const bbm_model *m, int c, int e)
     return goes_before(m, e, c);
 }
 
-/* Whether two edges are of one straight side, also where it goes on in the next block that is held. */
+/* Whether two edges are of one straight side, also where it goes on in a block that is held. */
 static int are_in_line(const bbm_model *m, int e, int f)
 {
     return m->edge[e].side == m->edge[f].side || (m->edge[e].is_inner && m->edge[e].joined[0] == f)
