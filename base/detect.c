@@ -535,8 +535,9 @@ static const bbm_contact *find_closed(const bbm_model *m, int corner, int edge)
     return found;
 }
 
-/* Whether the corner may come to the edge in this step, and not from behind it. One that was inside
- * by less than the rounding stays near, also far from the end that it came past. */
+/* Whether the corner may come to the edge in this step, and not from behind it. One that was closed
+ * stays near, and one that was inside as long as it is so by no more than the rounding, also far
+ * from the end that it came past. One that has opened inside after a hit may be deeper. */
 static int is_near(const bbm_model *m, int corner, int e)
 {
     const double approach = reach_of(m, corner)->travel + reach_of(m, e)->travel;
@@ -547,9 +548,10 @@ static int is_near(const bbm_model *m, int corner, int e)
         || (!is_corner(m, corner) && !bbm_carries(m, corner, e))
         || fmax(f.d, f.beyond) > approach + start_depth(m, corner, e))
         return 0;
-    return find_closed(m, corner, e)
+    const bbm_contact *c = find_closed(m, corner, e);
+    return (c && (c->state != BBM_OPEN || c->hit == 2))
         || (-f.d <= approach + fmax(deep, rounding_between(m, corner, e))
-            && (f.beyond > touch_between(m, corner, e) || f.d >= -deep));
+            && (c || f.beyond > touch_between(m, corner, e) || f.d >= -deep));
 }
 
 /* Whether the pair may not touch. What was closed may, but two elements that are held all round
@@ -628,8 +630,8 @@ static pair meet(const bbm_model *m, pair p, int end, meeting kind)
 
 /* Whether the pair p gives way to the pair that it meets, where both are one contact. There are
  * three such places.
- * On one straight side (NEXT): the pair that was closed stays at the end of its edge, or else p
- * gives way if P lies before the end of the other edge.
+ * On one straight side (NEXT): p gives way if P lies before the end of the other edge. But at the
+ * seam of two blocks the pair that was closed stays.
  * At one place, P at Q with both edges in line: the pair that was closed stays, or else the one
  * whose edge goes before the other.
  * Side by side along one line: the pair stays whose projection is on its edge. Both stay if neither
@@ -651,7 +653,8 @@ static int gives_way(const bbm_model *m, pair p, int end, meeting kind)
     const double touch = touch_between(m, p.corner, p.edge), at = end ? t.length : 0;
     const double most = fmax(fabs(f.s - at), fmax(fabs(f.beyond), fabs(g.beyond)));
     if (kind == NEXT) {
-        const int stays = mine && mine == other && most <= touch;
+        const int seam = m->edge[p.edge].first != m->edge[q.edge].first;
+        const int stays = seam && mine && mine == other && most <= touch;
         return stays && mine->edge == q.edge ? 1 : stays && mine->edge == p.edge ? 0
              : end ? f.s >= t.length : g.s < u.length;
     }
@@ -992,10 +995,10 @@ static int counts(const bbm_model *m, const bbm_contact *r, const bbm_contact *c
         return 0;
     if (crossed_at(m, r) > 1 && crossed_at(m, c) > 1) {
         const int flush = ends_flush(m, c->corner, c->edge, 0);
-        if (flush != ends_flush(m, r->corner, r->edge, 0))
-            return flush;
         if (lies_along(m, c) && lies_along(m, r))
             return 1;
+        if (flush != ends_flush(m, r->corner, r->edge, 0))
+            return flush;
     }
     if (fabs(later) > TIE || r->trial.was_closed != c->trial.was_closed)
         return (fabs(later) > TIE ? later > 0 : r->trial.was_closed) && admits(m, r);

@@ -581,12 +581,43 @@ START_TEST(a_grid_point_on_a_seam_or_a_grid_point_of_held_ground_carries_its_sha
 }
 END_TEST
 
+/* Blocks of 1 m side by side are held at their bottoms alone. A block in so many cells slides over them without friction and
+ * begins and ends steps with its corners on their seams; it is held up all the way, and by nothing in it. */
+START_TEST(what_slides_over_blocks_on_supports_passes_their_seams_wherever_a_step_ends)
+{
+    static const struct { double w, v; int cells, steps; } RUN[] = { { 2, 5, 4, 20 }, { 1, 12.5, 2, 36 }, { 1, 20, 4, 20 } };
+
+    for (int k = 0; k < 2 * COUNT(RUN); k++) {
+        const double w = RUN[k / 2].w, v = RUN[k / 2].v, way = RUN[k / 2].steps * v * 1e-2, side = k % 2 ? -1 : 1;
+        bbm_model *m = new_blocks();
+        m->par.dt = 1e-2;
+        set_springs(m, 1e9, 4e8);
+        for (int b = 0; b < 7; b++) {
+            add_rectangle(m, b, BASE, (rectangle){ .x = side < 0 ? -b - 1 : b, .y = -1, .w = 1, .h = 1 });
+            for (int n = m->nodes - 4; n < m->nodes - 2; n++)
+                ck_ok(bbm_fix_node(m, n, BBM_XY, 0, 0), m);
+        }
+        const int e = add_rectangle(m, 7, ROCK, (rectangle){ .x = side < 0 ? -w : 0, .w = w, .h = w, .nx = RUN[k / 2].cells });
+        prepare(m);
+        if (_i)
+            settle(m, 20);
+        for (int i = e; i < m->elements; i++)
+            m->element[i].V[0] = side * v;
+        run_steps(m, RUN[k / 2].steps);
+        ck_relative(m->element[e].sum[0], side * way, 1e-3);
+        ck_near(m->element[e].sum[1], 0, w, 1e-3);
+        release(m);
+    }
+}
+END_TEST
+
 Suite *flush_suite(void)
 {
     Suite *s = suite_create("flush");
 
     add_case(s, "seams", { what_slides_over_seams_low_ledges_and_open_joints_goes_on, COUNT(KIND) },
         { a_corner_that_falls_on_the_seam_of_two_free_blocks_stays_on_them, 2 },
+        { what_slides_over_blocks_on_supports_passes_their_seams_wherever_a_step_ends, 2 },
         { held_blocks_that_part_below_a_block_carry_it, 2 },
         { a_grid_point_on_a_seam_or_a_grid_point_of_held_ground_carries_its_share, 2 },
         { a_ledge_lower_than_the_rounding_holds_no_block, 2 * COUNT(LEDGES) },
