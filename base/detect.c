@@ -424,14 +424,22 @@ static int side_at(const bbm_model *m, int c, int which, int Q)
     return alone ? own[which] : joined;
 }
 
-/* Whether the edge is covered where the corner is: another block lies flush with its end there. */
+/* Whether two edges are of one straight side, also where it goes on in a block that is held. */
+static int are_in_line(const bbm_model *m, int e, int f)
+{
+    return m->edge[e].side == m->edge[f].side || (m->edge[e].is_inner && m->edge[e].joined[0] == f)
+        || (m->edge[f].is_inner && m->edge[f].joined[0] == e);
+}
+
+/* Whether the edge is covered where the corner is: another block lies flush with its end there, and
+ * the straight side ends there, too. */
 static int is_covered(const bbm_model *m, int corner, int e)
 {
     const int Q = end_near(m, corner, e), end = Q != e, cover = side_at(m, Q, !end, corner);
-    const int side = end ? m->edge[cover].after : m->edge[cover].before;
+    const int side = end ? m->edge[cover].after : m->edge[cover].before, on = m->edge[Q].joined[end];
     const double s = project(m, corner, e).s, from = end ? m->edge[e].along.length - s : s;
 
-    return cover != e && 2 * from < m->edge[side].along.length;
+    return cover != e && 2 * from < m->edge[side].along.length && (on < 0 || !are_in_line(m, e, on));
 }
 
 static bbm_direction turned(bbm_direction t, double r)
@@ -508,13 +516,6 @@ int bbm_carries(const bbm_model *m, int c, int e)
     if ((alike || isinf(m->par.dt)) && fabs(ratio - 1) > STRAIGHT)
         return ratio < 1;
     return goes_before(m, e, c);
-}
-
-/* Whether two edges are of one straight side, also where it goes on in a block that is held. */
-static int are_in_line(const bbm_model *m, int e, int f)
-{
-    return m->edge[e].side == m->edge[f].side || (m->edge[e].is_inner && m->edge[e].joined[0] == f)
-        || (m->edge[f].is_inner && m->edge[f].joined[0] == e);
 }
 
 /* The contact of the last step, closed or open inside, between `corner` and the edge, or else
