@@ -436,10 +436,12 @@ static int are_in_line(const bbm_model *m, int e, int f)
 static int is_covered(const bbm_model *m, int corner, int e)
 {
     const int Q = end_near(m, corner, e), end = Q != e, cover = side_at(m, Q, !end, corner);
-    const int side = end ? m->edge[cover].after : m->edge[cover].before, on = m->edge[Q].joined[end];
+    const int side = end ? m->edge[cover].after : m->edge[cover].before;
+    const int on = m->edge[Q].joined[end];
     const double s = project(m, corner, e).s, from = end ? m->edge[e].along.length - s : s;
 
-    return cover != e && 2 * from < m->edge[side].along.length && (on < 0 || !are_in_line(m, e, on));
+    return cover != e && 2 * from < m->edge[side].along.length
+        && (on < 0 || !are_in_line(m, e, on));
 }
 
 static bbm_direction turned(bbm_direction t, double r)

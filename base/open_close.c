@@ -172,7 +172,7 @@ static void close_contact(const bbm_model *m, bbm_contact *c)
     const double slip = (1 - c->anchor) * c->trial.past[0] - c->anchor * c->trial.past[1];
     c->trial.time_left = 1 - d0 / (d0 - c->d_n);
     const double T = c->trial.time_left * m->par.p_s * fabs(slip);
-    const double N = bbm_normal_force(m, c->d_n - fmin(0, c->rest));
+    const double N = bbm_normal_force(m, c->d_n - c->rest);
     const int slides = ++c->trial.closings > 1 || T > bbm_shear_strength(&c->strength, N);
     c->state = slides ? BBM_SLIDE : BBM_LOCK;
     c->sign = copysign(1, slip);
