@@ -427,8 +427,11 @@ static int side_at(const bbm_model *m, int c, int which, int Q)
 /* Whether two edges are of one straight side, also where it goes on in a block that is held. */
 static int are_in_line(const bbm_model *m, int e, int f)
 {
-    return m->edge[e].side == m->edge[f].side || (m->edge[e].is_inner && m->edge[e].joined[0] == f)
-        || (m->edge[f].is_inner && m->edge[f].joined[0] == e);
+    const int goes_on = (m->edge[e].is_inner && m->edge[e].joined[0] == f)
+                     || (m->edge[f].is_inner && m->edge[f].joined[0] == e);
+
+    return m->edge[e].side == m->edge[f].side
+        || (goes_on && is_held(m, e) && is_held(m, f) && are_parallel(m, e, f, 1));
 }
 
 /* Whether the edge is covered where the corner is: another block lies flush with its end there, and

@@ -611,6 +611,32 @@ START_TEST(what_slides_over_blocks_on_supports_passes_their_seams_wherever_a_ste
 }
 END_TEST
 
+/* Two blocks side by side; below their joint, a little to the right, is the seam of two held blocks. On the last bit of the
+ * first of these both bear all that they would without a seam. */
+START_TEST(a_block_bears_on_the_last_bit_of_a_held_block)
+{
+    for (int k = 0; k < 8; k++) {
+        const double off = pow(10, -5 + k / 8.0);
+        bbm_model *m = new_blocks();
+        m->par.dt = 1e-2;
+        m->par.friction = 20;
+        set_springs(m, 3e9, 1.2e9);
+        for (int b = 0; b < 2; b++)
+            add_rectangle(m, b, BASE, (rectangle){ .x = 5 * (b - 1) + off, .y = -1, .w = 5, .h = 1, .fixed = 1 });
+        for (int b = 0; b < 2; b++)
+            add_rectangle(m, 2 + b, ROCK, (rectangle){ .x = 4 * (b - 1), .w = 4, .h = 4 - 2 * b, .nx = _i ? 3 : 1 });
+        prepare(m);
+        for (int i = 2; i < m->elements; i++)
+            m->element[i].material.E = 1.9e9;                   /* it widens as it is pressed */
+        settle(m, 60);
+        for (int c = 0; c < m->contacts; c++)
+            if (m->contact[c].state != BBM_OPEN)
+                ck_near(m->contact[c].N, -3e9 * m->contact[c].d_n, 1e5, 1e-3);
+        release(m);
+    }
+}
+END_TEST
+
 Suite *flush_suite(void)
 {
     Suite *s = suite_create("flush");
@@ -619,6 +645,7 @@ Suite *flush_suite(void)
         { a_corner_that_falls_on_the_seam_of_two_free_blocks_stays_on_them, 2 },
         { what_slides_over_blocks_on_supports_passes_their_seams_wherever_a_step_ends, 2 },
         { held_blocks_that_part_below_a_block_carry_it, 2 },
+        { a_block_bears_on_the_last_bit_of_a_held_block, 2 },
         { a_grid_point_on_a_seam_or_a_grid_point_of_held_ground_carries_its_share, 2 },
         { a_ledge_lower_than_the_rounding_holds_no_block, 2 * COUNT(LEDGES) },
         { a_ledge_that_a_wall_leaves_behind_holds_no_block, 4 },
