@@ -659,8 +659,12 @@ static int gives_way(const bbm_model *m, pair p, int end, meeting kind)
     const double touch = touch_between(m, p.corner, p.edge), at = end ? t.length : 0;
     const double most = fmax(fabs(f.s - at), fmax(fabs(f.beyond), fabs(g.beyond)));
     if (kind == NEXT) {
-        const int seam = m->edge[p.edge].first != m->edge[q.edge].first;
-        const int stays = seam && mine && mine == other && most <= touch;
+        const int seam = m->edge[p.edge].first != m->edge[q.edge].first && most <= touch;
+        const int before = m->edge[p.corner].before;
+        const int lies = are_parallel(m, p.edge, end ? p.corner : before, -1);
+        const int stays = seam && mine && mine == other;
+        if (seam && lies != are_parallel(m, q.edge, end ? before : p.corner, -1))
+            return !lies;
         return stays && mine->edge == q.edge ? 1 : stays && mine->edge == p.edge ? 0
              : end ? f.s >= t.length : g.s < u.length;
     }
@@ -966,13 +970,11 @@ static int admits(const bbm_model *m, const bbm_contact *c)
         && can_enter(m, c->corner, c->edge, r, PARALLEL + angle);
 }
 
-/* Whether a side of the corner lies along the edge, and along one that ends at the corner, too. */
+/* Whether a side of the corner lies along the edge. */
 static int lies_along(const bbm_model *m, const bbm_contact *c)
 {
-    const bbm_edge *P = &m->edge[c->corner];
-
-    return (P->meets[0] || P->meets[1])
-        && (are_parallel(m, c->edge, P->before, -1) || are_parallel(m, c->edge, c->corner, -1));
+    return are_parallel(m, c->edge, m->edge[c->corner].before, -1)
+        || are_parallel(m, c->edge, c->corner, -1);
 }
 
 /* Whether an entrance line r of an open contact c counts in its place: r is closed, or P is outside
