@@ -842,7 +842,8 @@ static void continue_contact(const bbm_model *m, pair p, bbm_contact *c)
 }
 
 /* A closed contact c whose corner has left its edge for that of r, which goes on from it, lives on
- * as r, with its forces. But not if r has forces of its own. */
+ * as r, with its forces. But not if r has forces of its own, or the corner is deeper behind it than
+ * one may come in: then another block has moved on and left it there. */
 static void hand_over(const bbm_model *m, bbm_contact *c, bbm_contact *r)
 {
     const double touch = touch_between(m, c->corner, c->edge);
@@ -850,7 +851,8 @@ static void hand_over(const bbm_model *m, bbm_contact *c, bbm_contact *r)
     const int edge = r->edge;
 
     if (c->state == BBM_OPEN || r->state != BBM_OPEN || f.beyond <= touch || g.beyond > touch
-        || !are_parallel(m, c->edge, edge, 1) || m->edge[c->edge].first == m->edge[edge].first)
+        || !are_parallel(m, c->edge, edge, 1) || m->edge[c->edge].first == m->edge[edge].first
+        || g.d < -bbm_allowed_depth(m, c->corner, edge))
         return;
     *r = *c;
     r->edge = edge;
