@@ -634,10 +634,16 @@ static pair meet(const bbm_model *m, pair p, int end, meeting kind)
     return (pair){ Q, (kind == FLUSH) == end ? p.corner : m->edge[p.corner].before, 0 };
 }
 
+/* Whether a side of the corner lies along the edge and reaches inward from that end of it. */
+static int lies_over(const bbm_model *m, int corner, int e, int end)
+{
+    return are_parallel(m, e, end ? corner : m->edge[corner].before, -1);
+}
+
 /* Whether the pair p gives way to the pair that it meets, where both are one contact. There are
  * three such places.
- * On one straight side (NEXT): p gives way if P lies before the end of the other edge. But at the
- * seam of two blocks the pair that was closed stays.
+ * On one straight side (NEXT): p gives way if P lies before the end of the other edge; at the seam
+ * of two blocks if a side of P reaches over the other one alone, or that goes before.
  * At one place, P at Q with both edges in line: the pair that was closed stays, or else the one
  * whose edge goes before the other.
  * Side by side along one line: the pair stays whose projection is on its edge. Both stay if neither
@@ -646,35 +652,29 @@ static pair meet(const bbm_model *m, pair p, int end, meeting kind)
 static int gives_way(const bbm_model *m, pair p, int end, meeting kind)
 {
     const pair q = meet(m, p, end, kind);
-    const int Q = end ? m->edge[p.edge].after : p.edge;
+    const int P = p.corner, Q = end ? m->edge[p.edge].after : p.edge;
 
-    const int apart = kind == NEXT ? !are_in_line(m, p.edge, q.edge)
-                    : !are_parallel(m, p.edge, q.edge, 0);
-    if (apart || find_pair(m, q) < 0)
+    if (!(kind == NEXT ? are_in_line(m, p.edge, q.edge) : are_parallel(m, p.edge, q.edge, 0))
+        || find_pair(m, q) < 0)
         return 0;
-    const projection f = project(m, p.corner, p.edge), g = project(m, q.corner, q.edge);
+    const projection f = project(m, P, p.edge), g = project(m, q.corner, q.edge);
     const bbm_direction t = m->edge[p.edge].along, u = m->edge[q.edge].along;
-    const bbm_contact *mine = find_closed(m, p.corner, p.edge);
-    const bbm_contact *other = find_closed(m, q.corner, q.edge);
-    const double touch = touch_between(m, p.corner, p.edge), at = end ? t.length : 0;
+    const int here = find_closed(m, P, p.edge) != NULL;
+    const int there = find_closed(m, q.corner, q.edge) != NULL;
+    const double touch = touch_between(m, P, p.edge), at = end ? t.length : 0;
     const double most = fmax(fabs(f.s - at), fmax(fabs(f.beyond), fabs(g.beyond)));
-    if (kind == NEXT) {
-        const int seam = m->edge[p.edge].first != m->edge[q.edge].first && most <= touch;
-        const int before = m->edge[p.corner].before;
-        const int lies = are_parallel(m, p.edge, end ? p.corner : before, -1);
-        const int stays = seam && mine && mine == other;
-        if (seam && lies != are_parallel(m, q.edge, end ? before : p.corner, -1))
-            return !lies;
-        return stays && mine->edge == q.edge ? 1 : stays && mine->edge == p.edge ? 0
-             : end ? f.s >= t.length : g.s < u.length;
-    }
-    if (is_corner(m, p.corner) != is_corner(m, Q)
-        && most <= fmax(bbm_rounding(m, p.corner), bbm_rounding(m, Q)))
+    if (kind == NEXT && (most > touch || m->edge[p.edge].first == m->edge[q.edge].first))
+        return end ? f.s >= t.length : g.s < u.length;
+    const int beside = lies_over(m, P, q.edge, !end) - lies_over(m, P, p.edge, end);
+    if (kind == NEXT)
+        return beside != 0 ? beside > 0 : !goes_before(m, p.edge, q.edge);
+    if (is_corner(m, P) != is_corner(m, Q)
+        && most <= fmax(bbm_rounding(m, P), bbm_rounding(m, Q)))
         return is_corner(m, Q);
     if (most > touch)
-        return kind == FLUSH && is_corner(m, p.corner) && is_corner(m, Q) && f.beyond > g.beyond
-            && (mine || other || most > slip_between(m, p.corner, Q, t));
-    return !mine != !other ? !mine : !goes_before(m, p.edge, q.edge);
+        return kind == FLUSH && is_corner(m, P) && is_corner(m, Q) && f.beyond > g.beyond
+            && (here || there || most > slip_between(m, P, Q, t));
+    return here != there ? there : !goes_before(m, p.edge, q.edge);
 }
 
 /* Whether a side of Q goes straight on in one of P, and both blocks are held all round and move
@@ -781,7 +781,7 @@ static int ends_flush(const bbm_model *m, int corner, int e, int goes_on)
 static int has_left(const bbm_model *m, const bbm_contact *c)
 {
     const int Q = end_near(m, c->corner, c->edge), end = Q != c->edge;
-    const int before = m->edge[Q].before, *meets = m->edge[Q].meets;
+    const bbm_edge *q = &m->edge[Q];
     int lines = 0;
 
     for (int k = 2 * end; k < 2 * end + 2; k++) {
@@ -795,10 +795,10 @@ static int has_left(const bbm_model *m, const bbm_contact *c)
         lines++;
     }
     return (c->trial.beyond_end && lines == 0)
-        || (c->trial.was_closed && !bbm_is_strong(c) && meets[!end] && is_convex(m, before, Q)
-            && is_corner(m, Q) && !m->edge[Q].is_inner
-            && project(m, c->corner, c->edge).beyond > -rounding_between(m, c->corner, c->edge)
-            && bbm_may_enter(m, c->corner, end ? Q : before));
+        || (c->trial.was_closed && !bbm_is_strong(c) && q->meets[!end] && !q->is_inner
+            && cross(m->edge[q->before].along, q->along) > PARALLEL
+            && bbm_may_enter(m, c->corner, end ? Q : q->before)
+            && project(m, c->corner, c->edge).beyond > -rounding_between(m, c->corner, c->edge));
 }
 
 /* Makes a pair a contact that goes on from the one that it continues. A corner that has come
@@ -813,7 +813,8 @@ static void continue_contact(const bbm_model *m, pair p, bbm_contact *c)
     const bbm_contact *old = m->contacts ? find_ancestor(m, p) : NULL;
     const projection f = project(m, p.corner, p.edge);
     const double touch = touch_between(m, p.corner, p.edge);
-    const double seam = contact_depth(m, p.corner, end_near(m, p.corner, p.edge));
+    const int near = end_near(m, p.corner, p.edge);
+    const double seam = contact_depth(m, p.corner, near) + rounding_between(m, p.corner, p.edge);
 
     *c = old ? *old : (bbm_contact){ 0 };
     c->inside |= !old && f.d < -touch && f.beyond <= 0;
@@ -835,22 +836,25 @@ static void continue_contact(const bbm_model *m, pair p, bbm_contact *c)
         const int convex = is_convex(m, in, out);
         const int meets = convex && (k % 2 == 0 || !are_parallel(m, p.edge, other.edge, 0));
         c->trial.entrance[k] = meets ? find_pair(m, other) : -1;
-        c->trial.beyond_end &= Q != end_near(m, p.corner, p.edge)
+        c->trial.beyond_end &= Q != near
                             || (convex && f.beyond > fmin(0, bend) * f.d);
     }
     c->trial.has_left = has_left(m, c);
 }
 
 /* A closed contact c whose corner has left its edge for that of r, which goes on from it, lives on
- * as r, with its forces. But not if r has forces of its own, or the corner is deeper behind it than
- * one may come in: then another block has moved on and left it there. */
+ * as r, with its forces. But not if r has forces of its own, nor if the corner is deeper behind it
+ * than one may come in, for then its block has moved on; nor as long as the block of the corner
+ * lies beside c and reaches over r by no more than the rounding. */
 static void hand_over(const bbm_model *m, bbm_contact *c, bbm_contact *r)
 {
     const double touch = touch_between(m, c->corner, c->edge);
     const projection f = project(m, c->corner, c->edge), g = project(m, c->corner, r->edge);
-    const int edge = r->edge;
+    const int edge = r->edge, end = end_near(m, c->corner, edge) != edge;
+    const double least = lies_over(m, c->corner, edge, end)
+                       ? -touch : rounding_between(m, c->corner, edge);
 
-    if (c->state == BBM_OPEN || r->state != BBM_OPEN || f.beyond <= touch || g.beyond > touch
+    if (c->state == BBM_OPEN || r->state != BBM_OPEN || f.beyond <= touch || -g.beyond < least
         || !are_parallel(m, c->edge, edge, 1) || m->edge[c->edge].first == m->edge[edge].first
         || g.d < -bbm_allowed_depth(m, c->corner, edge))
         return;
@@ -975,8 +979,7 @@ static int admits(const bbm_model *m, const bbm_contact *c)
 /* Whether a side of the corner lies along the edge. */
 static int lies_along(const bbm_model *m, const bbm_contact *c)
 {
-    return are_parallel(m, c->edge, m->edge[c->corner].before, -1)
-        || are_parallel(m, c->edge, c->corner, -1);
+    return lies_over(m, c->corner, c->edge, 0) || lies_over(m, c->corner, c->edge, 1);
 }
 
 /* Whether an entrance line r of an open contact c counts in its place: r is closed, or P is outside
@@ -985,9 +988,9 @@ static int lies_along(const bbm_model *m, const bbm_contact *c)
  * corners behind it. A P that crosses its own line first, on the edge and farther off its ends than
  * their rounding, is inside wherever an end Q lies: both may bear.
  * What was closed keeps its line until P crosses the other one. Of two lines that are not crossed
- * the one counts that no block covers, and neither does where each lies along a side of its corner:
- * P and Q pass each other at the surface. Of two lines crossed at the same time the one counts that
- * was closed at the start of the step, or else that goes before. */
+ * neither counts where each lies along a side of its corner: P and Q pass each other at the
+ * surface. Of two lines crossed at the same time the one counts that was closed at the start of the
+ * step, or else that goes before. */
 static int counts(const bbm_model *m, const bbm_contact *r, const bbm_contact *c)
 {
     const double later = crossed_at(m, r) - crossed_at(m, c), t = fmin(1, crossed_at(m, c));
@@ -1003,13 +1006,8 @@ static int counts(const bbm_model *m, const bbm_contact *r, const bbm_contact *c
         return over_r >= (c->trial.was_closed ? 0 : -off);
     if (c->trial.was_closed && crossed_at(m, r) > 1)
         return 0;
-    if (crossed_at(m, r) > 1 && crossed_at(m, c) > 1) {
-        const int flush = ends_flush(m, c->corner, c->edge, 0);
-        if (lies_along(m, c) && lies_along(m, r))
-            return 1;
-        if (flush != ends_flush(m, r->corner, r->edge, 0))
-            return flush;
-    }
+    if (crossed_at(m, r) > 1 && crossed_at(m, c) > 1 && lies_along(m, c) && lies_along(m, r))
+        return 1;
     if (fabs(later) > TIE || r->trial.was_closed != c->trial.was_closed)
         return (fabs(later) > TIE ? later > 0 : r->trial.was_closed) && admits(m, r);
     return goes_before(m, r->edge, c->edge) && admits(m, r);

@@ -821,6 +821,44 @@ START_TEST(a_corner_that_two_elements_begin_to_share_keeps_its_force)
 }
 END_TEST
 
+/* It stands on x beside held blocks whose corners meet it in a point: below on one hand, or on both, or beside it as well. When
+ * x goes it falls past them; statics says so. */
+START_TEST(a_block_whose_support_goes_falls_past_the_corners_that_met_it)
+{
+    static const char *const beside[] = { "l1", "r1", "l1 r1", "l1 l2 r1 r2", "l1 l2 r1 r2" };
+    const int is_static = _i == 4;
+    char held[200] = "";
+
+    for (const char *b = beside[_i]; b; b = strchr(b, ' ') ? strchr(b, ' ') + 1 : NULL)
+        snprintf(held + strlen(held), sizeof held - strlen(held), "block %.2s rock %d %d %d %d %d %d %d %d\nfixblock %.2s\n", b,
+                 *b == 'l' ? -1 : 1, b[1] - '2', *b == 'l' ? 0 : 2, b[1] - '2', *b == 'l' ? 0 : 2, b[1] - '1',
+                 *b == 'l' ? -1 : 1, b[1] - '1', b);
+    ck_assert_int_eq(run_printed("past", "material rock E 1e12 nu 0.2 density 2500\ngravity 0 -9.81\n"
+        "contact kn 1e10 ks 4e9 friction 0\n%s\n%sblock x rock 0 -1 1 -1 1 0 0 0\nfixblock x\nblock st rock 0 0 1 0 1 1 0 1\n"
+        "stage go %s remove x\nend\nmonitor s set st\n", is_static ? "static" : "dynamic dt 0.002 steps 2", held,
+        is_static ? "" : "steps 100"), is_static);
+    if (!is_static)
+        ck_relative(cell("past", "history.csv", "", "s_v"), -9.81 * 0.2 * 0.2 / 2, 2e-2);
+}
+END_TEST
+
+/* Its block has sunk under it, so the next one stands a little higher: by less than the rounding, in a step of many times that. */
+START_TEST(a_slider_whose_front_stands_over_the_seam_of_free_blocks_goes_on)
+{
+    static const struct { double E, w, h, phi, v, dt; int settle; } run[] = {
+        { 1.01e12, 1, 0.8, 0, 4.863, 4.78e-3, 300 }, { 7.249e10, 0.25, 0.25, 0, 5, 2.41e-3, 100 },
+        { 6.244e11, 1, 0.5, 0, 11.75, 2.3335e-4, 100 } };
+    const double way = 5 * run[_i].v * run[_i].dt;
+
+    ck_assert_int_eq(run_printed("front", "let w %g\nlet h %g\nmaterial rock E %g nu 0.2 density 2500\ngravity 0 -9.81\n"
+        "contact kn %g ks %g friction %g\ndynamic dt %g steps 5 settle %d\nblock A rock 0 -2 1 -2 1 -1 0 -1\nfixblock A\n"
+        "block B rock 1 -2 2 -2 2 -1 1 -1\nfixblock B\nblock a rock 0 -1 1 -1 1 0 0 0\nblock b rock 1 -1 2 -1 2 0 1 0\n"
+        "block sl rock $(1-w) 0 1 0 1 $h $(1-w) $h\nvelocity sl %g 0\nmonitor s set sl\n", run[_i].w, run[_i].h, run[_i].E,
+        run[_i].E / 100, run[_i].E / 250, run[_i].phi, run[_i].dt, run[_i].settle, run[_i].v), 0);
+    ck_relative(cell("front", "history.csv", "", "s_u"), way, 1e-2);
+}
+END_TEST
+
 /* Its wagons hit each other a little, and lift by that while a corner is just past a seam. */
 START_TEST(a_train_with_restitution_rolls_over_flush_seams)
 {
@@ -1527,6 +1565,8 @@ static void add_what_the_file_says(TCase *t)
     tcase_add_test(t, a_corner_stays_between_a_floor_and_a_wall);
     tcase_add_test(t, a_hit_in_which_a_corner_jams_goes_on);
     tcase_add_loop_test(t, a_train_with_restitution_rolls_over_flush_seams, 0, 4);
+    tcase_add_loop_test(t, a_slider_whose_front_stands_over_the_seam_of_free_blocks_goes_on, 0, 3);
+    tcase_add_loop_test(t, a_block_whose_support_goes_falls_past_the_corners_that_met_it, 0, 5);
     tcase_add_test(t, the_last_of_a_row_flies_off_as_restitution_says);
     tcase_add_loop_test(t, a_grid_has_its_cells_and_its_rim, 0, 4);
     tcase_add_loop_test(t, a_block_is_the_set_of_its_nodes, 0, 4);
