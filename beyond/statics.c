@@ -233,7 +233,7 @@ static bbm_status try_statics(bbm_model *m)
  * Joints hold until forces balance with what holds them: at first inertia bears the weight.
  * A length that failed, or after which statics did, is not tried again for some steps. Lengths
  * count in the time in which the lightest element that is not held swings on a contact spring, or
- * on the softest element if that gives way more. */
+ * with friction on the softest element if that gives way more: then it matters who comes first. */
 static bbm_status creep(bbm_model *m, const bbm_model *from)
 {
     double failed = INFINITY, tried = 0, parted = 0, lacks = 1;
@@ -247,7 +247,8 @@ static bbm_status creep(bbm_model *m, const bbm_model *from)
     for (const bbm_element *i = m->element; i < m->element + m->elements; i++)
         if (m->K->body[i - m->element] >= 0) {
             least = fmin(least, bbm_mass_per_area(i) * i->A0);
-            softest = fmin(softest, i->material.E * i->material.thickness);
+            if (m->par.friction > 0)
+                softest = fmin(softest, i->material.E * i->material.thickness);
         }
     const double swing = sqrt(2 * least / softest);
     double h = LONG * swing;
