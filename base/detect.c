@@ -801,13 +801,13 @@ static int has_left(const bbm_model *m, const bbm_contact *c)
             && project(m, c->corner, c->edge).beyond > -rounding_between(m, c->corner, c->edge));
 }
 
-/* Makes a pair a contact that goes on from the one that it continues. A corner that has come
- * past a rounded one is inside. A projection beyond the end of the edge is off it. But it may be as
- * far beyond as a block that lies flush may be apart there; and in a notch of its block, or of it
- * and one that lies flush, or as deep in a hollow, it lies inside. An entrance is another line of
- * the list on which P and an end Q of its edge can enter each other, if both are convex corners;
- * where the blocks are flush each line is one of P or one of Q. In a notch Q both edges hold P at
- * once. */
+/* Makes a pair a contact that goes on from the one that it continues. A corner that has come past
+ * a rounded one is inside. A projection beyond the end of the edge is off it. But where a block
+ * lies flush it may be as far beyond as that may be apart, and by the rounding; and in a notch of
+ * its block, or of it and one that lies flush, or as deep in a hollow, it lies inside. An
+ * entrance is another line of the list on which P and an end Q of its edge can enter each other,
+ * if both are convex corners; where the blocks are flush each line is one of P or one of Q. In a
+ * notch Q both edges hold P at once. */
 static void continue_contact(const bbm_model *m, pair p, bbm_contact *c)
 {
     const bbm_contact *old = m->contacts ? find_ancestor(m, p) : NULL;
