@@ -542,7 +542,7 @@ static const bbm_contact *find_closed(const bbm_model *m, int corner, int edge)
 }
 
 /* Whether the corner may come to the edge in this step, and not from behind it. One that was closed
- * stays near, and one that was inside as long as it is so by no more than the rounding, also far
+ * stays near, and one that was inside as long as it is so by no more than its rounding, also far
  * from the end that it came past. One that has opened inside after a hit may be deeper. */
 static int is_near(const bbm_model *m, int corner, int e)
 {
@@ -555,8 +555,9 @@ static int is_near(const bbm_model *m, int corner, int e)
         || fmax(f.d, f.beyond) > approach + start_depth(m, corner, e))
         return 0;
     const bbm_contact *c = find_closed(m, corner, e);
+    const double least = c ? bbm_rounding(m, corner) : rounding_between(m, corner, e);
     return (c && (c->state != BBM_OPEN || c->hit == 2))
-        || (-f.d <= approach + fmax(deep, rounding_between(m, corner, e))
+        || (-f.d <= approach + fmax(deep, least)
             && (c || f.beyond > touch_between(m, corner, e) || f.d >= -deep));
 }
 
