@@ -84,11 +84,12 @@ struct bbm_edge {               /* a boundary edge from vertex a to b, its eleme
     int    next;                /* another edge of the block, in a ring of all                  */
     int    meets[2];            /* of its start: another block covers the edge that ends or     */
                                 /*          starts there, its corner not farther than rounding  */
-    int    is_inner;            /* of its start: inside one straight side of two held blocks    */
     int    slides;              /* of its start: a block that lies flush slides along it in     */
                                 /*          the step by more than contacts are deep             */
     int    joined[2];           /* of its start: the edges of blocks that lie flush and cover   */
                                 /*          the one that ends and the one that starts there; -1 */
+    int    held[2];             /* those of them with which the block makes one straight side,  */
+                                /*          where both are held and move alike; -1              */
     int    side;                /* the first edge of the straight side that it belongs to       */
     double span, spacing;       /* m        set in that first edge: the side's starting length, */
                                 /*          and the mean length of its edges                    */

@@ -408,6 +408,12 @@ static int are_parallel(const bbm_model *m, int e, int f, int way)
     return fabs(cross(p, q)) <= PARALLEL && way * (p.x * q.x + p.y * q.y) >= 0;
 }
 
+/* Whether the start of an edge lies inside one straight side of two held blocks. */
+static int is_inner(const bbm_model *m, int c)
+{
+    return m->edge[c].held[0] >= 0 || m->edge[c].held[1] >= 0;
+}
+
 /* The edge that ends at a corner c (0) or starts there (1), as another corner Q meets it: its own,
  * or the one that goes on from it in a block that lies flush and covers its own. Not where a side
  * of Q lies along the other side of c: there Q passes c, or does not, by their rounding. Nor where
@@ -419,7 +425,7 @@ static int side_at(const bbm_model *m, int c, int which, int Q)
     const int at[2] = { own[!which], joined };
     int alone = joined < 0 || m->edge[joined].first == m->edge[Q].first;
 
-    for (int k = 0; k < 4 && !alone && !m->edge[c].is_inner; k++)
+    for (int k = 0; k < 4 && !alone && !is_inner(m, c); k++)
         alone = are_parallel(m, at[k / 2], k % 2 ? m->edge[Q].before : Q, -1);
     return alone ? own[which] : joined;
 }
@@ -427,11 +433,7 @@ static int side_at(const bbm_model *m, int c, int which, int Q)
 /* Whether two edges are of one straight side, also where it goes on in a block that is held. */
 static int are_in_line(const bbm_model *m, int e, int f)
 {
-    const int goes_on = (m->edge[e].is_inner && m->edge[e].joined[0] == f)
-                     || (m->edge[f].is_inner && m->edge[f].joined[0] == e);
-
-    return m->edge[e].side == m->edge[f].side
-        || (goes_on && is_held(m, e) && is_held(m, f) && are_parallel(m, e, f, 1));
+    return m->edge[e].side == m->edge[f].side || m->edge[e].held[0] == f || m->edge[f].held[0] == e;
 }
 
 /* Whether the edge is covered where the corner is: another block lies flush with its end there, and
@@ -440,11 +442,9 @@ static int is_covered(const bbm_model *m, int corner, int e)
 {
     const int Q = end_near(m, corner, e), end = Q != e, cover = side_at(m, Q, !end, corner);
     const int side = end ? m->edge[cover].after : m->edge[cover].before;
-    const int on = m->edge[Q].joined[end];
     const double s = project(m, corner, e).s, from = end ? m->edge[e].along.length - s : s;
 
-    return cover != e && 2 * from < m->edge[side].along.length
-        && (on < 0 || !are_in_line(m, e, on));
+    return cover != e && 2 * from < m->edge[side].along.length && m->edge[Q].held[end] < 0;
 }
 
 static bbm_direction turned(bbm_direction t, double r)
@@ -555,9 +555,9 @@ static int is_near(const bbm_model *m, int corner, int e)
         || fmax(f.d, f.beyond) > approach + start_depth(m, corner, e))
         return 0;
     const bbm_contact *c = find_closed(m, corner, e);
-    const double least = c ? bbm_rounding(m, corner) : rounding_between(m, corner, e);
+    const double rounding = c ? bbm_rounding(m, corner) : rounding_between(m, corner, e);
     return (c && (c->state != BBM_OPEN || c->hit == 2))
-        || (-f.d <= approach + fmax(deep, least)
+        || (-f.d <= approach + fmax(deep, rounding)
             && (c || f.beyond > touch_between(m, corner, e) || f.d >= -deep));
 }
 
@@ -574,7 +574,7 @@ static int is_hidden(const bbm_model *m, pair p)
 
     return (is_held(m, p.corner) && is_held(m, p.edge))
         || (!find_closed(m, p.corner, p.edge)
-            && (m->edge[p.corner].is_inner || is_covered(m, p.corner, p.edge)
+            && (is_inner(m, p.corner) || is_covered(m, p.corner, p.edge)
                 || !can_enter(m, p.corner, p.edge, STILL, angle)));
 }
 
@@ -643,8 +643,8 @@ static int lies_over(const bbm_model *m, int corner, int e, int end)
 
 /* Whether the pair p gives way to the pair that it meets, where both are one contact. There are
  * three such places.
- * On one straight side (NEXT): p gives way if P lies before the end of the other edge; at the seam
- * of two blocks if a side of P reaches over the other one alone, or that goes before.
+ * On one straight side (NEXT): p gives way if P lies before the end of the other edge. At the seam
+ * of two blocks it does if a side of P reaches over the other edge alone, or if that goes before.
  * At one place, P at Q with both edges in line: the pair that was closed stays, or else the one
  * whose edge goes before the other.
  * Side by side along one line: the pair stays whose projection is on its edge. Both stay if neither
@@ -654,7 +654,6 @@ static int gives_way(const bbm_model *m, pair p, int end, meeting kind)
 {
     const pair q = meet(m, p, end, kind);
     const int P = p.corner, Q = end ? m->edge[p.edge].after : p.edge;
-
     if (!(kind == NEXT ? are_in_line(m, p.edge, q.edge) : are_parallel(m, p.edge, q.edge, 0))
         || find_pair(m, q) < 0)
         return 0;
@@ -696,30 +695,30 @@ static void join_flush_corners(bbm_model *m)
 {
     for (int e = 0; e < m->edges; e++) {
         m->edge[e].joined[0] = m->edge[e].joined[1] = -1;
-        m->edge[e].meets[0] = m->edge[e].meets[1] = 0;
-        m->edge[e].slides = m->edge[e].is_inner = 0;
+        m->edge[e].held[0] = m->edge[e].held[1] = -1;
+        m->edge[e].meets[0] = m->edge[e].meets[1] = m->edge[e].slides = 0;
     }
     for (int k = 0; k < 2 * m->scratch->pairs; k++) {
         const pair p = m->scratch->pair[k / 2];
         const int P = p.corner, end = k % 2, Q = end ? m->edge[p.edge].after : p.edge;
-        const int side = end ? P : m->edge[P].before;
         const bbm_direction t = m->edge[p.edge].along;
         const projection f = project(m, P, p.edge);
         const double apart = hypot(f.d, f.s - end * t.length);
-        if (!are_parallel(m, p.edge, side, -1)
+        if (!lies_over(m, P, p.edge, end)
             || apart > touch_between(m, P, Q) + rounding_between(m, P, p.edge))
             continue;
         m->edge[Q].meets[!end] = m->edge[P].meets[end] = 1;
         if (apart > contact_depth(m, P, Q))
             continue;
-        const int inner = apart <= touch_between(m, P, Q) && are_one_side(m, P, Q, end);
-        m->edge[P].is_inner |= inner;
-        m->edge[Q].is_inner |= inner;
-        const int slides = slip_between(m, P, Q, t) > contact_depth(m, P, Q);
-        m->edge[P].slides |= slides;
-        m->edge[Q].slides |= slides;
-        m->edge[Q].joined[!end] = end ? m->edge[P].before : P;
-        m->edge[P].joined[end] = end ? Q : m->edge[Q].before;
+        if (slip_between(m, P, Q, t) > contact_depth(m, P, Q))
+            m->edge[P].slides = m->edge[Q].slides = 1;
+        const int at_Q = end ? m->edge[P].before : P, at_P = end ? Q : m->edge[Q].before;
+        m->edge[Q].joined[!end] = at_Q;
+        m->edge[P].joined[end] = at_P;
+        if (apart <= touch_between(m, P, Q) && are_one_side(m, P, Q, end)) {
+            m->edge[Q].held[!end] = at_Q;
+            m->edge[P].held[end] = at_P;
+        }
     }
 }
 
@@ -796,7 +795,7 @@ static int has_left(const bbm_model *m, const bbm_contact *c)
         lines++;
     }
     return (c->trial.beyond_end && lines == 0)
-        || (c->trial.was_closed && !bbm_is_strong(c) && q->meets[!end] && !q->is_inner
+        || (c->trial.was_closed && !bbm_is_strong(c) && q->meets[!end] && !is_inner(m, Q)
             && cross(m->edge[q->before].along, q->along) > PARALLEL
             && bbm_may_enter(m, c->corner, end ? Q : q->before)
             && project(m, c->corner, c->edge).beyond > -rounding_between(m, c->corner, c->edge));
@@ -844,9 +843,9 @@ static void continue_contact(const bbm_model *m, pair p, bbm_contact *c)
 }
 
 /* A closed contact c whose corner has left its edge for that of r, which goes on from it, lives on
- * as r, with its forces. But not if r has forces of its own, nor if the corner is deeper behind it
- * than one may come in, for then its block has moved on; nor as long as the block of the corner
- * lies beside c and reaches over r by no more than the rounding. */
+ * as r, with its forces. But not if r has forces of its own, or if the corner is deeper behind it
+ * than one may come in: its block has moved on. A corner whose block lies beside c alone stays with
+ * it until it reaches over r by the rounding. */
 static void hand_over(const bbm_model *m, bbm_contact *c, bbm_contact *r)
 {
     const double touch = touch_between(m, c->corner, c->edge);

@@ -355,7 +355,8 @@ static bbm_status part_bodies(bbm_model *m)
         const bbm_bond of = m->bond[b];
         const int side[2][2] = { { of.p[0], of.p[1] }, { of.q[1], of.q[0] } };
         for (int k = 0; k < 2 && bbm_is_broken(m, b) && m->vertex[side[k][0]].edge < 0; k++) {
-            const bbm_edge new = { k ? of.j : of.i, side[k][0], side[k][1], .joined = { -1, -1 } };
+            const bbm_edge new = { k ? of.j : of.i, side[k][0], side[k][1], .joined = { -1, -1 },
+                                   .held = { -1, -1 } };
             m->vertex[new.a].edge = m->edges;
             m->edge[m->edges++] = new;
         }

@@ -20,16 +20,11 @@
 /* N. Of a joint that bears anything. */
 #define ANY 1e100
 
-/* The edge that goes on from a corner, in the next block where both are held and flush, or -1. */
-static int held_at(const bbm_model *m, int c, int ends)
-{
-    return m->edge[c].is_inner ? m->edge[c].joined[ends] : -1;
-}
-
 /* The corner after (1) or before a corner, along one side. */
 static int next_corner(const bbm_model *m, int c, int ends)
 {
-    const int held = held_at(m, c, ends), e = held >= 0 ? held : ends ? c : m->edge[c].before;
+    const int held = m->edge[c].held[ends];
+    const int e = held >= 0 ? held : ends ? c : m->edge[c].before;
 
     return ends ? m->edge[e].after : e;
 }
@@ -39,11 +34,8 @@ static int end_of_side(const bbm_model *m, int edge, int whole, int ends)
 {
     int c = ends ? m->edge[edge].after : edge;
 
-    for (int k = 0; k < m->edges; k++) {
-        if (held_at(m, c, ends) < 0 && (!whole || m->edge[c].side == c))
-            break;
+    while (m->edge[c].held[ends] >= 0 || (whole && m->edge[c].side != c))
         c = next_corner(m, c, ends);
-    }
     return c;
 }
 

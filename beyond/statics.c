@@ -247,7 +247,7 @@ static bbm_status creep(bbm_model *m, const bbm_model *from)
     for (const bbm_element *i = m->element; i < m->element + m->elements; i++)
         if (m->K->body[i - m->element] >= 0) {
             least = fmin(least, bbm_mass_per_area(i) * i->A0);
-            if (m->par.friction > 0)
+            if (m->par.friction > 0 || b->joints > 0)
                 softest = fmin(softest, i->material.E * i->material.thickness);
         }
     const double swing = sqrt(2 * least / softest);
