@@ -436,15 +436,14 @@ static int are_in_line(const bbm_model *m, int e, int f)
     return m->edge[e].side == m->edge[f].side || m->edge[e].held[0] == f || m->edge[f].held[0] == e;
 }
 
-/* Whether the edge is covered where the corner is: another block lies flush with its end there, and
- * the straight side ends there, too. */
+/* Whether the edge is covered where the corner is: another block lies flush with its end there. */
 static int is_covered(const bbm_model *m, int corner, int e)
 {
     const int Q = end_near(m, corner, e), end = Q != e, cover = side_at(m, Q, !end, corner);
     const int side = end ? m->edge[cover].after : m->edge[cover].before;
     const double s = project(m, corner, e).s, from = end ? m->edge[e].along.length - s : s;
 
-    return cover != e && 2 * from < m->edge[side].along.length && m->edge[Q].held[end] < 0;
+    return cover != e && 2 * from < m->edge[side].along.length;
 }
 
 static bbm_direction turned(bbm_direction t, double r)
