@@ -662,7 +662,7 @@ static int gives_way(const bbm_model *m, pair p, int end, meeting kind)
     const int there = find_closed(m, q.corner, q.edge) != NULL;
     const double touch = touch_between(m, P, p.edge), at = end ? t.length : 0;
     const double most = fmax(fabs(f.s - at), fmax(fabs(f.beyond), fabs(g.beyond)));
-    if (kind == NEXT && (most > touch || m->edge[p.edge].first == m->edge[q.edge].first))
+    if (kind == NEXT && most > touch)
         return end ? f.s >= t.length : g.s < u.length;
     const int beside = lies_over(m, P, q.edge, !end) - lies_over(m, P, p.edge, end);
     if (kind == NEXT)
@@ -755,8 +755,10 @@ static const bbm_contact *find_ancestor(const bbm_model *m, pair p)
 
     for (meeting k = FLUSH; k <= OTHER && !old; k++) {
         const pair q = meet(m, p, end_near(m, p.corner, p.edge) != p.edge, k);
-        if (are_parallel(m, p.edge, q.edge, 0) && find_pair(m, q) < 0)
-            old = find_closed(m, q.corner, q.edge);
+        const bbm_contact *c = find_closed(m, q.corner, q.edge);
+        if (c && are_parallel(m, p.edge, q.edge, 0) && find_pair(m, q) < 0
+            && find_pair(m, (pair){ c->corner, c->edge, 0 }) < 0)
+            old = c;
     }
     return old;
 }
@@ -842,9 +844,8 @@ static void continue_contact(const bbm_model *m, pair p, bbm_contact *c)
 }
 
 /* A closed contact c whose corner has left its edge for that of r, which goes on from it, lives on
- * as r, with its forces. But not if r has forces of its own, or if the corner is deeper behind it
- * than one may come in: its block has moved on. A corner whose block lies beside c alone stays with
- * it until it reaches over r by the rounding. */
+ * as r, with its forces, unless r has forces of its own. A corner whose block lies beside c alone
+ * stays with it until it reaches over r by the rounding. */
 static void hand_over(const bbm_model *m, bbm_contact *c, bbm_contact *r)
 {
     const double touch = touch_between(m, c->corner, c->edge);
@@ -854,8 +855,7 @@ static void hand_over(const bbm_model *m, bbm_contact *c, bbm_contact *r)
                        ? -touch : rounding_between(m, c->corner, edge);
 
     if (c->state == BBM_OPEN || r->state != BBM_OPEN || f.beyond <= touch || -g.beyond < least
-        || !are_parallel(m, c->edge, edge, 1) || m->edge[c->edge].first == m->edge[edge].first
-        || g.d < -bbm_allowed_depth(m, c->corner, edge))
+        || !are_parallel(m, c->edge, edge, 1) || m->edge[c->edge].first == m->edge[edge].first)
         return;
     *r = *c;
     r->edge = edge;

@@ -70,7 +70,7 @@ static void begin_contact(const bbm_model *m, bbm_contact *c)
     const int begins = !c->trial.carried || c->state == BBM_OPEN;
     if (begins)
         place_anchor(m, c);
-    if (begins || c->hit == 1)
+    if (begins || (c->hit == 1 && c->N == 0))
         c->rest = bbm_rest_of(m, c->trial.d_n0, c->N);
 }
 

@@ -42,6 +42,7 @@ typedef struct {                /* energy.c: of an element, and of the component
     int    jumps;               /* impact.c: the component does; -1: it keeps no shape; -2: nor */
                                 /*          does it rub                                         */
     double asked;               /* -        of the energy that hits are to give back            */
+    double asks, pays;          /* J        for springs that get longer, see lengthen_springs   */
     double mass;                /* kg       in a hit: what is free to move                      */
     int moves;                  /* something has inertia                                        */
 } bbm_account;

@@ -17,8 +17,10 @@
 #include "beyond.h"
 
 /* GAIN [-]      a step that makes more than this share of what is there, in all its parts together,
- *               is wrong: it is what the solution and the vectors of the step may be off */
+ *               is wrong: it is what the solution and the vectors of the step may be off
+ * LONGER [-]    of what a spring lacks it gets back this share in a step: in a few steps, gently */
 #define GAIN 1e-5
+#define LONGER 0.05
 
 /* int u.M u dA of a field u = T V, for Eq. (11). */
 double bbm_inertia_form(const bbm_element *e, const double V[6])
@@ -151,6 +153,29 @@ void bbm_find_accounts(bbm_model *m, const bbm_model *end)
             b->account[c].gain = b->account[c].there = 0;
 }
 
+/* A normal spring that began where its corner had come in over a ledge gets back a share of its
+ * length. Without this, what slides over joints sinks at each one, for the next block has not yet
+ * given way. A component pays for it with what it has lost in the step and a little more. First the
+ * springs ask for energy, then they get it. */
+static void lengthen_springs(bbm_model *m, int they_ask)
+{
+    const bbm_contact_scratch *w = m->scratch;
+
+    for (bbm_contact *c = w->contact; c < w->contact + w->contacts; c++) {
+        const int i = m->edge[c->corner].element;
+        bbm_account *own = &m->beyond->account[i], *of = &m->beyond->account[m->K->component[i]];
+        if (c->state == BBM_OPEN || c->hit == 2 || c->N <= 0 || c->rest >= 0)
+            continue;
+        const double share = they_ask ? 1 : fmin(1, of->pays / of->asks);
+        const double rest = c->rest * (1 - LONGER * share);
+        const double N = bbm_normal_force(m, c->d_n - rest);
+        const double more = bbm_normal_energy(m, N) - bbm_normal_energy(m, c->N);
+        *(they_ask ? &of->asks : &of->gain) += more;
+        own->springs[0] += they_ask ? 0 : more;
+        c->rest = they_ask ? c->rest : rest;
+    }
+}
+
 /* The energy that the part of a step from m to `end` makes beyond the work of its loads, for each
  * component by itself, as a share of what is there: the energy at the start, the work of each load
  * without sign, and what rounding may make. The largest shares of all parts of a step add up. Too
@@ -159,25 +184,31 @@ bbm_status bbm_check_balance(bbm_model *m, const bbm_model *end)
 {
     bbm_beyond *b = m->beyond;
     const bbm_account *worst = b->account;
-    double share = 0, gained = 0, work = 0;
+    double share = 0;
 
     bbm_find_accounts(m, end);
     for (const bbm_account *a = b->account; a < b->account + m->K->components; a++) {
         worst = a->gain > share * a->there ? a : worst;
         share = fmax(0, worst->gain / worst->there);
-        gained += fmax(0, a->gain);
-        work += a->work;
     }
     if (bbm_motion_of(m) && b->made + share > GAIN)
         return bbm_fail(m, BBM_ENERGY, "step %d at t = %g, dt cut to %g: beyond the work of loads "
                         "its parts have made %.3g of the %.2g J that were there, expected at most "
                         "%g", m->info.step + 1, m->info.t, m->h, b->made + share, worst->there,
                         GAIN);
-    for (int i = 0; i < m->elements; i++)
-        b->account[i].springs[0] = b->account[i].springs[1];
-    b->work += work;
-    b->gained += gained;
     b->made += share;
     b->gain = fmax(b->gain, b->made);
+    for (bbm_account *a = b->account; a < b->account + m->elements; a++) {
+        a->springs[0] = a->springs[1];
+        a->pays = m->par.velocity_factor < 1 ? INFINITY
+                : fmax(0, GAIN / 10 * m->h / m->par.dt * a->there - a->gain);
+        a->asks = 0;
+    }
+    for (int they_ask = bbm_motion_of(m) != NULL; they_ask >= 0; they_ask--)
+        lengthen_springs(m, they_ask);
+    for (const bbm_account *a = b->account; a < b->account + m->K->components; a++) {
+        b->work += a->work;
+        b->gained += fmax(0, a->gain);
+    }
     return BBM_OK;
 }

@@ -875,6 +875,46 @@ START_TEST(a_slider_that_friction_stops_passes_the_seams_of_meshed_blocks)
 }
 END_TEST
 
+/* A slider presses 24 bricks in a row one after the other, by 25 times what its contacts give way. Each brick that it comes
+ * to has not yet given way; it stays at its height all the same, with friction and without. */
+START_TEST(what_slides_over_soft_bricks_does_not_sink_into_them)
+{
+    ck_assert_int_eq(run_printed("bricks", "material rock E 1e9 nu 0 density 2000\nrepeat i 0 23\n"
+        "block b$i rock $(i/2-2) -1 $(i/2-1.5) -1 $(i/2-1.5) 0 $(i/2-2) 0\nend\nblock lo rock -3 -1 -2 -1 -2 -0.1 -3 -0.1\n"
+        "block hi rock 10 -1 11 -1 11 -0.1 10 -0.1\nfixblock lo\nfixblock hi\nfix box -2 -1 10 -1 y\n"
+        "block s rock -0.35 0 1.25 0 1.25 0.5 -0.35 0.5\nload set s 0 -500000\nvelocity s %g 0\n"
+        "contact kn 5e10 ks 2e10 friction %g\ndynamic dt 3.5777088e-4 steps %d settle 200\nmonitor c at -0.35 0 of s\n",
+        _i ? 23.4738538 : 27.9508497, _i ? 10.0 : 0.0, _i ? 1428 : 500), 0);
+    ck_relative(cell("bricks", "history.csv", "", "c_u"), 5, 1e-3);         /* what the shear springs give way */
+    ck_near(cell("bricks", "history.csv", "", "c_v"), -2.5e-4, 1, 0.8e-4);  /* at rest; it tilts as it comes to a brick */
+}
+END_TEST
+
+/* It stops after V^2 / (2 tan(phi) g), with tops that differ by a millionth of a metre. With a restitution springs begin anew at
+ * hits, and so lower at each brick; they get their lengths back, too. */
+START_TEST(what_slides_over_low_ledges_with_a_restitution_does_not_sink)
+{
+    ck_assert_int_eq(run_text("hits", "material rock E 1.22625e9 nu 0.2 density 2500\ngravity 0 -9.81\n"
+        "contact kn 1.22625e7 ks 4.905e6 friction 20 restitution 0\ndynamic dt 0.009578262852 steps 190\nlet h 1e-6\n"
+        "repeat i 0 7\nlet h $(1e-6-h)\nblock r$i rock $(0.8*i) -0.5 $(0.8*(i+1)) -0.5 $(0.8*(i+1)) $h $(0.8*i) $h\n"
+        "fixblock r$i\nend\nblock s rock 0.1 1e-6 1.1 1e-6 1.1 0.500001 0.1 0.500001\nvelocity s 5.882058322 0\n"
+        "monitor a at 0.1 1e-6 of s\n"), 0);
+    ck_relative(cell("hits", "history.csv", "", "a_u"), 5.882058322 * 5.882058322 / (2 * bbm_tangent(20) * 9.81), 1e-2);
+    ck_near(cell("hits", "history.csv", "", "a_v"), 0, 1, 1e-3);        /* W / kn is 1e-3 */
+}
+END_TEST
+
+/* A row of bricks is held at its bases, and a slider's grid point passes a seam as a step ends. What it takes over of the
+ * bricks' corners they bear no more. */
+START_TEST(a_grid_point_that_passes_a_seam_doubles_no_force)
+{
+    ck_assert_int_eq(run_text("seam", "material rock E 1.4e10 nu 0 density 2500\nmaterial base E 1.4e12 nu 0 density 2500\n"
+        "gravity 0 -9.81\ncontact kn 3.4474844e7 ks 1.3789938e7 friction 0\nlet q 1.4057021098215388\nrepeat i 0 2\n"
+        "block f$i base $(i*q) $(-q) $((i+1)*q) $(-q) $((i+1)*q) 0 $(i*q) 0\nend\nfix box 0 $(-q) $(3*q) $(-q)\n"
+        "grid a rock 0 0 $q $q 2 1\nvelocity a 2.96405772318702 0\ndynamic dt 0.0118562308927 steps 36 settle 40\n"), 0);
+}
+END_TEST
+
 /* Its wagons hit each other a little, and lift by that while a corner is just past a seam. */
 START_TEST(a_train_with_restitution_rolls_over_flush_seams)
 {
@@ -1582,6 +1622,9 @@ static void add_what_the_file_says(TCase *t)
     tcase_add_test(t, a_hit_in_which_a_corner_jams_goes_on);
     tcase_add_loop_test(t, a_train_with_restitution_rolls_over_flush_seams, 0, 4);
     tcase_add_test(t, a_slider_that_friction_stops_passes_the_seams_of_meshed_blocks);
+    tcase_add_loop_test(t, what_slides_over_soft_bricks_does_not_sink_into_them, 0, 2);
+    tcase_add_test(t, a_grid_point_that_passes_a_seam_doubles_no_force);
+    tcase_add_test(t, what_slides_over_low_ledges_with_a_restitution_does_not_sink);
     tcase_add_loop_test(t, a_slider_whose_front_stands_over_the_seam_of_free_blocks_goes_on, 0, 3);
     tcase_add_loop_test(t, a_block_whose_support_goes_falls_past_the_corners_that_met_it, 0, 5);
     tcase_add_test(t, the_last_of_a_row_flies_off_as_restitution_says);

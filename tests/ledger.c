@@ -169,9 +169,12 @@ static double held_energy(const bbm_model *m, const bbm_element *e)
 
 /* --------------------------------------------------------------------------------------------------- contacts */
 
+/* By the length of its normal spring, which may have grown since it bore N. */
 static double contact_energy(const bbm_model *m, const bbm_contact *c)
 {
-    return c->state == BBM_OPEN ? 0 : c->N * c->N / (2 * m->par.p_n) + c->T * c->T / (2 * m->par.p_s);
+    const double length = c->rest - c->d_n;
+
+    return c->state == BBM_OPEN ? 0 : m->par.p_n * length * length / 2 + c->T * c->T / (2 * m->par.p_s);
 }
 
 /* How far P1 is inside the edge P2 P3 of another block. */
