@@ -120,9 +120,21 @@ static bbm_model *pulled(double f)
     return m;
 }
 
+/* The same, with friction in the two joints alone. */
+static bbm_model *jointed(double f)
+{
+    bbm_model *m = pulled(f);
+
+    m->par.friction = 0;
+    for (int b = 1; b <= 2; b++)
+        ck_assert_int_eq(bbm_add_joint(m, (int[]){ b, b + 1 }, 38, 0, 0), BBM_OK);
+    return m;
+}
+
 static const struct { bbm_model *(*build)(double f); const char *how; } LIMIT[] = {
     { portal, "lifts off" }, { tall, "lifts off" }, { flat, "slides on" }, { arch, "lifts off" },
     { wedge, "slides on" }, { bar, "slides on" }, { stop, "slides on" }, { pulled, "slides on" },
+    { jointed, "slides on" },
 };
 
 START_TEST(a_scene_stands_to_99_percent_of_its_limit_and_falls_at_101)
