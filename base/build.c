@@ -322,12 +322,12 @@ static bbm_status allocate(bbm_model *m)
 {
     m->F = calloc(18 * (size_t)m->elements, sizeof *m->F);
     m->gap = calloc(bbm_most_gaps(m), sizeof *m->gap);
-    if (!m->F || !m->gap)
+    if (!m->F || !m->gap || bbm_detect_new(m))
         return BBM_NO_MEMORY;
     m->D = m->F + 6 * (size_t)m->elements;
     m->load = m->D + 6 * (size_t)m->elements;
     bbm_list_gaps(m);
-    return bbm_lay_out_matrix(m) || bbm_detect_new(m) ? BBM_NO_MEMORY : BBM_OK;
+    return bbm_lay_out_matrix(m);
 }
 
 /* Checks the model and makes all that the steps need. */

@@ -216,7 +216,7 @@ bbm_status bbm_matrix_add(bbm_matrix *K, int i, int j, double B[6][6])
  * contact, Eq. (5). Without memory the old one stays. */
 bbm_status bbm_lay_out_matrix(bbm_model *m)
 {
-    const int contacts = m->scratch ? m->scratch->contacts : 0;
+    const int contacts = m->scratch->contacts;
     const int most = contacts * (BBM_PARTS * (BBM_PARTS - 1) / 2) + m->gaps;
     int (*link)[2] = calloc((size_t)most + 1, sizeof *link), n = 0;
     bbm_matrix *K;

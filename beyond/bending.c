@@ -296,24 +296,13 @@ static void list_bond(bbm_model *m, const bbm_bond *b)
         bbm_turn_opening(i, j, &m->gap[m->gaps - 1]);
 }
 
-/* The vertex before v in its element. */
-static int previous_vertex(const bbm_model *m, int v)
-{
-    const bbm_element *e = &m->element[m->vertex[v].element];
-
-    return v > e->first ? v - 1 : e->first + e->n - 1;
-}
-
-/* The next after v of the corners that bonds join around a node, and after the last the first. */
+/* The next after v of the corners that bonds join around a node. At the last one a boundary edge
+ * starts; after it comes the first one, where the edge before that ends. */
 static int next_corner(const bbm_model *m, int v)
 {
-    int edge = m->vertex[v].edge;
+    const int edge = m->vertex[v].edge;
 
-    if (edge < 0)
-        return -1 - edge;
-    while ((edge = m->vertex[previous_vertex(m, v)].edge) < 0)
-        v = previous_vertex(m, -1 - edge);
-    return v;
+    return edge < 0 ? -1 - edge : m->edge[m->edge[edge].before].b;
 }
 
 /* The node of a vertex. One that was caught on its way holds each where it was then. */
@@ -347,7 +336,8 @@ static void list_held_node(bbm_model *m, int v)
 
     do {
         const bbm_element *e = &m->element[m->vertex[w].element];
-        alone.held &= ~(held_edge(m, e, w) | held_edge(m, e, previous_vertex(m, w)));
+        const int before = w > e->first ? w - 1 : e->first + e->n - 1;
+        alone.held &= ~(held_edge(m, e, w) | held_edge(m, e, before));
         quadrilaterals += e->n == 4;
         K += bbm_fixed_stiffness(m->par.alpha, e);
         corners++;
