@@ -201,42 +201,36 @@ static bbm_status open_close(bbm_model *m, bbm_pass *pass)
          ? bbm_say_what_failed(m, BBM_OPEN_CLOSE) : BBM_OK;
 }
 
-/* Moves one element by its D: vertices by Eq. (1), stress by Eq. (7), (8), velocity by Eq. (14). */
-static void update_element(const bbm_model *m, bbm_element *e, bbm_vertex vertex[])
-{
-    const bbm_motion *motion = m->hook->motion ? m->hook->motion(m, 1) : NULL;
-    const bbm_element start = *e;
-    double E[3][3], u[2];
-
-    for (int k = 0; k < e->n; k++) {
-        bbm_vertex *p = &vertex[k];
-        bbm_move(motion, e, e->D, p->x, p->y, u);
-        p->u += u[0];
-        p->v += u[1];
-        p->x = m->node[p->node].x - m->origin[0] + p->u;
-        p->y = m->node[p->node].y - m->origin[1] + p->v;
-    }
-    bbm_elastic_matrix(&e->material, E);
-    for (int a = 0; a < 3; a++) {
-        for (int b = 0; b < 3; b++)
-            e->stress[a] += E[a][b] * e->D[3 + b];
-        e->szz += e->out_of_plane * (E[0][a] + E[1][a]) * e->D[3 + a];
-        e->sum[a] += e->D[a];
-    }
-    if (bbm_is_static(m))
-        memset(e->V, 0, sizeof e->V);
-    else
-        bbm_newmark_velocity(e, m->h, m->par.velocity_factor > 0);     /* its share: bbm_step */
-    if (motion)
-        motion->turn(&start, e, vertex);
-}
-
-/* Moves the elements and vertices of the model, or of a copy, by the D of the model, Eq. (3). */
+/* Moves the elements and vertices of the model, or of a copy, by the D of the model: vertices by
+ * Eq. (1), (3), stress by Eq. (7), (8), velocity by Eq. (14). */
 void bbm_move_elements(const bbm_model *m, bbm_element element[], bbm_vertex vertex[])
 {
-    for (int i = 0; i < m->elements; i++) {
-        memcpy(element[i].D, &m->D[6 * i], sizeof element[i].D);
-        update_element(m, &element[i], &vertex[element[i].first]);
+    const bbm_motion *motion = m->hook->motion ? m->hook->motion(m, 1) : NULL;
+    double E[3][3], u[2];
+
+    for (bbm_element *e = element; e < element + m->elements; e++) {
+        memcpy(e->D, &m->D[6 * (e - element)], sizeof e->D);
+        const bbm_element start = *e;
+        for (bbm_vertex *p = &vertex[e->first]; p < &vertex[e->first + e->n]; p++) {
+            bbm_move(motion, e, e->D, p->x, p->y, u);
+            p->u += u[0];
+            p->v += u[1];
+            p->x = m->node[p->node].x - m->origin[0] + p->u;
+            p->y = m->node[p->node].y - m->origin[1] + p->v;
+        }
+        bbm_elastic_matrix(&e->material, E);
+        for (int a = 0; a < 3; a++) {
+            for (int b = 0; b < 3; b++)
+                e->stress[a] += E[a][b] * e->D[3 + b];
+            e->szz += e->out_of_plane * (E[0][a] + E[1][a]) * e->D[3 + a];
+            e->sum[a] += e->D[a];
+        }
+        if (bbm_is_static(m))
+            memset(e->V, 0, sizeof e->V);
+        else
+            bbm_newmark_velocity(e, m->h, m->par.velocity_factor > 0);  /* its share: bbm_step */
+        if (motion)
+            motion->turn(&start, e, &vertex[e->first]);
     }
 }
 
