@@ -251,7 +251,6 @@ void bbm_place_supports(bbm_model *m)
         bbm_displacement(e, e->V, P->x, P->y, v);
         for (int a = 0; a < 2; a++) {
             s->rate[a] = anew & 1 << a ? v[a] : s->rate[a];
-            s->part[1][a] = 0;
             if (s->moved[a] != 0)
                 m->node[n].wall[a] = s->to[a] - (1 - m->beyond->share) * s->moved[a];
         }
@@ -275,7 +274,7 @@ void bbm_find_reactions(bbm_model *m)
         for (int k = jumps; k < 2; k++)
             m->beyond->account[i].held[k] = 0;
     for (int n = 0; n < m->nodes; n++)
-        memset(s[n].part[jumps], 0, sizeof s[n].part[jumps]);
+        memset(s[n].part + jumps, 0, (size_t)(2 - jumps) * sizeof *s->part);
     for (int v = 0; v < m->vertices && !jumps; v++) {
         const int i = m->vertex[v].element;
         const bbm_element *e = &m->element[i];
