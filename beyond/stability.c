@@ -52,7 +52,6 @@ bbm_status bbm_find_stability(bbm_model *m, int *stable)
         if (m->scratch->contact[k].state == BBM_SLIDE)
             m->scratch->contact[k].state = BBM_LOCK;
     if (!status) {
-        bbm_set_middle(m);
         bbm_assemble(m);
         memset(m->F, 0, 6 * (size_t)m->elements * sizeof *m->F);
         status = bbm_solve(m->K, m->F, m->D, &pcg, &info);
