@@ -159,9 +159,8 @@ static double find_pivot(double square, double size)
  *     C_ij = (K_ij - sum_k<j C_ik C_jk)/C_jj,      C_jj^2 = K_jj - sum_k<j C_jk^2. */
 static void make_entry(const bbm_factor *f, int i, int j, const bbm_part *p)
 {
-    const bbm_part *last = f->part + f->first[j + 1] - 1;
+    const double *d = bbm_entry(f, 2 * j, 2 * j), *e = bbm_entry(f, 2 * j + 1, 2 * j);
     double *c = f->A + place_in(p, j), s[4] = { 0 };
-    const double *d = f->A + place_in(last, j), *e = d + width(last);
 
     multiply_rows(f, i, j, s);
     for (int a = 0; a < 2; a++, c += width(p)) {
