@@ -61,13 +61,12 @@ int bbm_find_pieces(const bbm_model *m, int piece[])
 
     for (int e = 0; e < m->elements; e++)
         piece[e] = e;
-    for (int b = 0; b < m->bonds; b++) {
-        if (bbm_is_broken(m, b))
-            continue;
-        const int i = bbm_root_of(piece, m->bond[b].i), j = bbm_root_of(piece, m->bond[b].j);
-        pieces -= i != j;
-        piece[i > j ? i : j] = i > j ? j : i;           /* the root is the first element */
-    }
+    for (int b = 0; b < m->bonds; b++)
+        if (!bbm_is_broken(m, b)) {
+            const int i = bbm_root_of(piece, m->bond[b].i), j = bbm_root_of(piece, m->bond[b].j);
+            pieces -= i != j;
+            piece[i > j ? i : j] = i > j ? j : i;       /* the root is the first element */
+        }
     for (int e = 0; e < m->elements; e++)
         piece[e] = piece[piece[e]];                     /* of an element before e, done already */
     return pieces;

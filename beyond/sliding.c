@@ -51,15 +51,13 @@ static int add_terms(const bbm_matrix *K, const double *x, double *y)
 {
     int count = 0;
 
-    for (const bbm_term *t = K->term; t < K->term + K->terms; t++) {
-        if (t->row[0] < K->from || t->row[0] >= K->to)
-            continue;
-        const double vx = bbm_length_of(&t->n, t->parts, t->row, x);
-        for (int i = 0; i < t->parts; i++)
-            for (int a = 0; a < 6; a++)
-                y[6 * t->row[i] + a] += t->p * t->s.v[i][a] * vx;
-        count++;
-    }
+    for (const bbm_term *t = K->term; t < K->term + K->terms; t++)
+        if (t->row[0] >= K->from && t->row[0] < K->to) {
+            const double vx = bbm_length_of(&t->n, t->parts, t->row, x);
+            for (int k = 0; k < 6 * t->parts; k++)
+                y[6 * t->row[k / 6] + k % 6] += t->p * t->s.v[k / 6][k % 6] * vx;
+            count++;
+        }
     return count;
 }
 

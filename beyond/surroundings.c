@@ -329,12 +329,11 @@ void bbm_stop_supports(bbm_model *m)
 /* All elements of a prepared model that are not yet in plane strain. */
 void bbm_set_plane_strain(bbm_model *m)
 {
-    for (int i = 0; i < m->elements; i++) {
-        bbm_material *a = &m->element[i].material;
-        if (m->element[i].out_of_plane != 0)
-            continue;
-        a->E /= 1 - a->nu * a->nu;
-        a->nu /= 1 - a->nu;
-        m->element[i].out_of_plane = a->nu / (1 + a->nu);
-    }
+    for (bbm_element *e = m->element; e < m->element + m->elements; e++)
+        if (e->out_of_plane == 0) {
+            bbm_material *a = &e->material;
+            a->E /= 1 - a->nu * a->nu;
+            a->nu /= 1 - a->nu;
+            e->out_of_plane = a->nu / (1 + a->nu);
+        }
 }
