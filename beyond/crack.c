@@ -87,8 +87,7 @@ static double stiffness(const bbm_model *m, const bbm_bond *b)
 /* c of both ends of a bond together, N/m. */
 static double softness(const bbm_model *m, const bbm_bond *b, int tooth)
 {
-    const bbm_beyond *y = m->beyond;
-    const double T = y->bond_tension, w_c = y->bond_energy / (T * taken(BROKEN));
+    const double T = m->beyond->bond_tension, w_c = m->beyond->bond_energy / (T * taken(BROKEN));
     double n[2];
 
     return tooth == BROKEN ? 0 : find_normal(m, b, 0, n) * T * slope_of(tooth) / w_c;

@@ -229,14 +229,13 @@ static void start_contacts(bbm_model *m, const bbm_model *step)
         bbm_contact *c = &m->scratch->contact[k];
         *c = m->beyond->jump_of[k];
         const bbm_account *of = account_of(m, m->edge[c->corner].element);
-        const double came = approach(step, c);
         bbm_spring v[2], from_end[2];
         bbm_contact_vectors(m, c, 0, v);
         bbm_contact_vectors(m, c, 1, from_end);
         c->anchor = v[1].d / (v[1].d - from_end[1].d);      /* where d_s is 0: it is linear     */
         const double back = has_closed(c) && c->hit != 1 ? E * sqrt(of->asked) : 0;
         const double asked = E < 0 ? m->h * normal_velocity(m, c, m->element)
-                                   : back * fmax(0, -came);
+                                   : back * fmax(0, -approach(step, c));
         c->rest = v[0].d + (of->jumps > 0) * asked;
         if (c->state == BBM_OPEN || of->jumps == 0) {
             c->state = BBM_OPEN;
@@ -251,11 +250,10 @@ static void start_contacts(bbm_model *m, const bbm_model *step)
 /* Solves until all contacts fit. */
 static bbm_status solve(bbm_model *m, const bbm_model *step, const bbm_model *end)
 {
-    bbm_contact_scratch *w = m->scratch;
     bbm_status status = BBM_OK;
     bbm_pass pass = BBM_PASS_AGAIN;
 
-    w->passes = w->friction_passes = w->one_until = 0;
+    m->scratch->passes = m->scratch->friction_passes = m->scratch->one_until = 0;
     start_elements(m, end);
     start_gaps(m);
     start_contacts(m, step);

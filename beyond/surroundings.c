@@ -97,8 +97,6 @@ static void press(const bbm_model *m, const bbm_edge_load *load, int r, const do
 /* Adds a load on a boundary edge of the prepared model. */
 static bbm_status add(bbm_model *m, int edge, bbm_edge_load load)
 {
-    bbm_beyond *b = m->beyond;
-
     if (m->status)
         return m->status;
     if (!m->K || edge < 0 || edge >= m->edges)
@@ -106,8 +104,8 @@ static bbm_status add(bbm_model *m, int edge, bbm_edge_load load)
     if (!isfinite(load.f[0] + load.f[1] + load.pressure + load.level * load.density))
         return m->status = bbm_fail(m, BBM_NOT_FINITE, "the load of edge %d", edge);
     load.a = m->edge[edge].a;
-    return m->status = bbm_append(m, (void **)&b->edge_load, &b->edge_loads, sizeof load, &load,
-                                  NULL);
+    return m->status = bbm_append(m, (void **)&m->beyond->edge_load, &m->beyond->edge_loads,
+                                  sizeof load, &load, NULL);
 }
 
 /* A force and a pressure, N/m. */
