@@ -257,13 +257,12 @@ bbm_status bbm_matrix_coarse(bbm_matrix *K, int nodes, const int *first, const i
     K->ready = 0;
     if (first[K->n] == 0)
         return BBM_OK;
-    coarse_space *c = calloc(1, sizeof *c);
-    bbm_status status = c ? list_nodes(K, nodes, first, node, middles, c) : BBM_NO_MEMORY;
-    status = status ? status : lay_out(K, place, c);
-    if (status)
-        coarse_free(c);
-    K->extra = status ? NULL : c;
-    return status;
+    coarse_space *c = K->extra = calloc(1, sizeof *c);
+    if (c && !list_nodes(K, nodes, first, node, middles, c) && !lay_out(K, place, c))
+        return BBM_OK;
+    coarse_free(c);
+    K->extra = NULL;
+    return BBM_NO_MEMORY;
 }
 
 /* The displacement (u, v) of the k-th node of block row i alone displaces the row by f (u, v), f
