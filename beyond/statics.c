@@ -315,6 +315,7 @@ static bbm_status settle(bbm_model *m)
 {
     char *was = malloc(copy_state(m, NULL, 0));
     bbm_contact *list = malloc(((size_t)m->contacts + 1) * sizeof *list);
+    const double reach = m->beyond->reach;
     bbm_model from = *m;
 
     if (!was || !list)
@@ -330,7 +331,7 @@ static bbm_status settle(bbm_model *m)
     m->h = INFINITY;
     m->par = from.par;
     m->info.t = from.info.t;
-    m->beyond->reach = INFINITY;
+    m->beyond->reach = reach;
     if (!status)
         m->message[0] = '\0';
     else {
