@@ -155,8 +155,8 @@ void bbm_find_accounts(bbm_model *m, const bbm_model *end)
 
 /* A normal spring that began where its corner had come in over a ledge gets back a share of its
  * length. Without this, what slides over joints sinks at each one, for the next block has not yet
- * given way. A component pays for it with what it has lost in the step and a little more. First the
- * springs ask for energy, then they get it. */
+ * given way. A component pays for it with what it has lost in the step, or, where velocities are not
+ * kept, with what they had. First the springs ask for energy, then they get it. */
 static void lengthen_springs(bbm_model *m, int they_ask)
 {
     const bbm_contact_scratch *w = m->scratch;
@@ -200,8 +200,7 @@ bbm_status bbm_check_balance(bbm_model *m, const bbm_model *end)
     b->gain = fmax(b->gain, b->made);
     for (bbm_account *a = b->account; a < b->account + m->elements; a++) {
         a->springs[0] = a->springs[1];
-        a->pays = m->par.velocity_factor < 1 ? INFINITY
-                : fmax(0, GAIN / 10 * m->h / m->par.dt * a->there - a->gain);
+        a->pays = m->par.velocity_factor < 1 ? INFINITY : fmax(0, -a->gain);
         a->asks = 0;
     }
     for (int they_ask = bbm_motion_of(m) != NULL; they_ask >= 0; they_ask--)

@@ -876,17 +876,17 @@ START_TEST(a_slider_that_friction_stops_passes_the_seams_of_meshed_blocks)
 END_TEST
 
 /* A slider presses 24 bricks in a row one after the other, by 25 times what its contacts give way. Each brick that it comes
- * to has not yet given way; it stays at its height all the same, with friction and without. */
+ * to has not yet given way; it stays at its height all the same, and stops after 5 m. */
 START_TEST(what_slides_over_soft_bricks_does_not_sink_into_them)
 {
-    ck_assert_int_eq(run_printed("bricks", "material rock E 1e9 nu 0 density 2000\nrepeat i 0 23\n"
+    ck_assert_int_eq(run_text("bricks", "material rock E 1e9 nu 0 density 2000\nrepeat i 0 23\n"
         "block b$i rock $(i/2-2) -1 $(i/2-1.5) -1 $(i/2-1.5) 0 $(i/2-2) 0\nend\nblock lo rock -3 -1 -2 -1 -2 -0.1 -3 -0.1\n"
         "block hi rock 10 -1 11 -1 11 -0.1 10 -0.1\nfixblock lo\nfixblock hi\nfix box -2 -1 10 -1 y\n"
-        "block s rock -0.35 0 1.25 0 1.25 0.5 -0.35 0.5\nload set s 0 -500000\nvelocity s %g 0\n"
-        "contact kn 5e10 ks 2e10 friction %g\ndynamic dt 3.5777088e-4 steps %d settle 200\nmonitor c at -0.35 0 of s\n",
-        _i ? 23.4738538 : 27.9508497, _i ? 10.0 : 0.0, _i ? 1428 : 500), 0);
+        "block s rock -0.35 0 1.25 0 1.25 0.5 -0.35 0.5\nload set s 0 -500000\nvelocity s 23.4738538 0\n"
+        "contact kn 5e10 ks 2e10 friction 10\ndynamic dt 3.5777088e-4 steps 1428 settle 200\nmonitor c at -0.35 0 of s\n"), 0);
     ck_relative(cell("bricks", "history.csv", "", "c_u"), 5, 1e-3);         /* what the shear springs give way */
     ck_near(cell("bricks", "history.csv", "", "c_v"), -2.5e-4, 1, 0.8e-4);  /* at rest; it tilts as it comes to a brick */
+    ck_assert(cell("bricks", "summary.csv", "", "gained") < 1e-9 * 1600 * 23.5 * 23.5);       /* rounding */
 }
 END_TEST
 
@@ -1622,7 +1622,7 @@ static void add_what_the_file_says(TCase *t)
     tcase_add_test(t, a_hit_in_which_a_corner_jams_goes_on);
     tcase_add_loop_test(t, a_train_with_restitution_rolls_over_flush_seams, 0, 4);
     tcase_add_test(t, a_slider_that_friction_stops_passes_the_seams_of_meshed_blocks);
-    tcase_add_loop_test(t, what_slides_over_soft_bricks_does_not_sink_into_them, 0, 2);
+    tcase_add_test(t, what_slides_over_soft_bricks_does_not_sink_into_them);
     tcase_add_test(t, a_grid_point_that_passes_a_seam_doubles_no_force);
     tcase_add_test(t, what_slides_over_low_ledges_with_a_restitution_does_not_sink);
     tcase_add_loop_test(t, a_slider_whose_front_stands_over_the_seam_of_free_blocks_goes_on, 0, 3);
