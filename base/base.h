@@ -136,7 +136,8 @@ struct bbm_contact {            /* vertex P1 of one block against an edge P2 P3 
     /* --- beyond the paper; carried, too --- */
     double rest;                /* m        d_n at which the normal spring has no force; in the */
                                 /*          paper 0. With bbm_motion a contact that closes with */
-                                /*          P1 inside starts unloaded: then it is negative      */
+                                /*          P1 inside starts unloaded: then it is negative, and */
+                                /*          a hook may bring it back to 0 in time               */
     double area;                /* m^2      its share of an unbroken joint, or 0                */
     int    inside;              /* it is open, but P1 is inside since it was closed             */
     int    hit;                 /* a hook has given it an impulse in place of its spring's; 2:  */
