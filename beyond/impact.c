@@ -25,12 +25,13 @@
  * of the step, and the jump finds them anew. In between two bodies all this is push and pull, so
  * that momentum stays.
  *
- * A contact that has closed, or that the jump opens, has had its impulse: its spring starts
- * unloaded. The law of Newton (-E times the velocity at the points that touch) may make energy
- * where several points hit together or rub, and a little by the order of the step. Such a jump is
- * done again with less asked of the contacts, in the end with 0 for all that is asked of contacts,
- * elements and bonds: (M + h^2/2 K) V'' = M V' takes energy from any motion. Where a corner that
- * slides jams it may not settle; then it is done without friction.
+ * With a restitution a contact that has closed, or that the jump opens, has had its impulse: its
+ * spring starts unloaded. Without one it keeps what it bears, or a light block that moves to and
+ * fro under a slow press would never be pressed. The law of Newton (-E times the velocity at the
+ * points that touch) may make energy where several points hit together or rub, and a little by the
+ * order of the step. Such a jump is done again with less asked of the contacts, in the end with 0
+ * for all that is asked of contacts, elements and bonds: (M + h^2/2 K) V'' = M V' takes energy from
+ * any motion. Where a corner that slides jams it may not settle; then it is done without friction.
  *
  * A support has moved by r1 h1 in this step and by r0 h0 in the one before. At the end of the step
  * its velocity is r1 + (r1 - r0) h1/(h0 + h1), right to second order; if it stands, 0; if it has
@@ -316,8 +317,8 @@ static void find_work(bbm_model *m)
     }
 }
 
-/* The elements at the end of the step take their velocities, the contacts what they were. But the
- * spring of one that has had its impulse starts unloaded. */
+/* The elements at the end of the step take their velocities, the contacts what they were. But with
+ * a restitution the spring of one that has had its impulse starts unloaded. */
 static void take(bbm_model *m, bbm_model *end)
 {
     find_work(m);
@@ -328,7 +329,7 @@ static void take(bbm_model *m, bbm_model *end)
         bbm_contact *c = &m->scratch->contact[k];
         const int jumped = isfinite(c->rest), opens = c->state == BBM_OPEN;
         *c = m->beyond->jump_of[k];
-        if (!jumped || !(opens || (m->beyond->restitution >= 0 && has_closed(c))))
+        if (!jumped || m->beyond->restitution < 0 || !(opens || has_closed(c)))
             continue;
         c->hit = 1;
         c->area = 0;

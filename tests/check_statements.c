@@ -890,6 +890,21 @@ START_TEST(what_slides_over_soft_bricks_does_not_sink_into_them)
 }
 END_TEST
 
+/* A block on a floor is pressed from above by a block that comes down by 0.2 mm in 40 s. In steps so long it moves to and fro,
+ * but the springs above and below it, 2 kn each, and its own stiffness bear what they should. */
+START_TEST(a_slow_press_bears_what_its_springs_do)
+{
+    static const char *const dynamic[] = { "dt 0.02 steps 2500", "dt 0.1 steps 500", "dt 2 steps 40" };
+    const double sinks = 2500 * 9.81 / 2e9, compliance = 2 / 2e9 + 1 / 1e11;
+
+    ck_assert_int_eq(run_printed("press", "material rigid E 1e14 nu 0.25 density 2500\nmaterial rock E 1e11 nu 0 density 2500\n"
+        "block f0 rigid -3 -1 3 -1 3 0 -3 0\nblock b0 rock -0.5 0 0.5 0 0.5 1 -0.5 1\n"
+        "block h rigid -0.4 1 0.4 1 0.4 2 -0.4 2\nfixblock f0\nfixblock h\ngravity 0 -9.81\ncontact kn 1e9 friction 30\n"
+        "dynamic %s settle 100 ramp 40\nfix set h y by -0.0002\nmonitor H joint h b0\n", dynamic[_i]), 0);
+    ck_relative(cell("press", "history.csv", "", "H_normal"), (2e-4 - sinks) / compliance, 1e-2);    /* its ends give way more */
+}
+END_TEST
+
 /* It stops after V^2 / (2 tan(phi) g), with tops that differ by a millionth of a metre. With a restitution springs begin anew at
  * hits, and so lower at each brick; they get their lengths back, too. */
 START_TEST(what_slides_over_low_ledges_with_a_restitution_does_not_sink)
@@ -1625,6 +1640,7 @@ static void add_what_the_file_says(TCase *t)
     tcase_add_test(t, what_slides_over_soft_bricks_does_not_sink_into_them);
     tcase_add_test(t, a_grid_point_that_passes_a_seam_doubles_no_force);
     tcase_add_test(t, what_slides_over_low_ledges_with_a_restitution_does_not_sink);
+    tcase_add_loop_test(t, a_slow_press_bears_what_its_springs_do, 0, 3);
     tcase_add_loop_test(t, a_slider_whose_front_stands_over_the_seam_of_free_blocks_goes_on, 0, 3);
     tcase_add_loop_test(t, a_block_whose_support_goes_falls_past_the_corners_that_met_it, 0, 5);
     tcase_add_test(t, the_last_of_a_row_flies_off_as_restitution_says);
