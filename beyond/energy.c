@@ -155,8 +155,9 @@ void bbm_find_accounts(bbm_model *m, const bbm_model *end)
 
 /* A normal spring that began where its corner had come in over a ledge gets back a share of its
  * length. Without this, what slides over joints sinks at each one, for the next block has not yet
- * given way. A component pays for it with what it has lost in the step, or, where velocities are not
- * kept, with what they had. First the springs ask for energy, then they get it. */
+ * given way. A component pays for it with what it has lost in the step. Where velocities are not
+ * kept at all it is free; where they keep a share there is no balance, and it is not done. First
+ * the springs ask for energy, then they get it. */
 static void lengthen_springs(bbm_model *m, int they_ask)
 {
     const bbm_contact_scratch *w = m->scratch;
@@ -164,7 +165,7 @@ static void lengthen_springs(bbm_model *m, int they_ask)
     for (bbm_contact *c = w->contact; c < w->contact + w->contacts; c++) {
         const int i = m->edge[c->corner].element;
         bbm_account *own = &m->beyond->account[i], *of = &m->beyond->account[m->K->component[i]];
-        if (c->state == BBM_OPEN || c->hit == 2 || c->N <= 0 || c->rest >= 0)
+        if (c->state == BBM_OPEN || c->N <= 0 || c->rest >= 0)
             continue;
         const double share = they_ask ? 1 : fmin(1, of->pays / of->asks);
         const double rest = c->rest * (1 - LONGER * share);
@@ -200,7 +201,7 @@ bbm_status bbm_check_balance(bbm_model *m, const bbm_model *end)
     b->gain = fmax(b->gain, b->made);
     for (bbm_account *a = b->account; a < b->account + m->elements; a++) {
         a->springs[0] = a->springs[1];
-        a->pays = m->par.velocity_factor < 1 ? INFINITY : fmax(0, -a->gain);
+        a->pays = m->par.velocity_factor == 0 ? INFINITY : fmax(0, -a->gain);
         a->asks = 0;
     }
     for (int they_ask = bbm_motion_of(m) != NULL; they_ask >= 0; they_ask--)
