@@ -275,8 +275,8 @@ static bbm_status connect_elements(bbm_model *m)
         const int across = w < 0 ? 0 : bbm_next_vertex(&m->element[m->vertex[w].element], w);
         m->vertex[v].edge = w < 0 ? m->edges : -1 - across;
         if (w < 0)
-            m->edge[m->edges++] = (bbm_edge){ i, v, next, block, .joined = { -1, -1 },
-                                              .held = { -1, -1 } };
+            m->edge[m->edges++] = (bbm_edge){ .element = i, .a = v, .b = next, .block = block,
+                                              .joined = { -1, -1 }, .held = { -1, -1 } };
         else if (v < w)
             m->bond[m->bonds++] = (bbm_bond){ i, m->vertex[w].element, { v, next },
                                               { across, w } };

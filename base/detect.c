@@ -653,6 +653,7 @@ static int gives_way(const bbm_model *m, pair p, int end, meeting kind)
 {
     const pair q = meet(m, p, end, kind);
     const int P = p.corner, Q = end ? m->edge[p.edge].after : p.edge;
+
     if (!(kind == NEXT ? are_in_line(m, p.edge, q.edge) : are_parallel(m, p.edge, q.edge, 0))
         || find_pair(m, q) < 0)
         return 0;

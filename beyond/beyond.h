@@ -42,7 +42,8 @@ typedef struct {                /* energy.c: of an element, and of the component
     int    jumps;               /* impact.c: the component does; -1: it keeps no shape; -2: nor */
                                 /*          does it rub                                         */
     double asked;               /* -        of the energy that hits are to give back            */
-    double asks, pays;          /* J        for springs that get longer, see lengthen_springs   */
+    double asks;                /* J        what its short springs ask for to get longer        */
+    double share;               /* -        of that which they get                              */
     double mass;                /* kg       in a hit: what is free to move                      */
     int moves;                  /* something has inertia                                        */
 } bbm_account;

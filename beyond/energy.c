@@ -129,7 +129,8 @@ void bbm_find_accounts(bbm_model *m, const bbm_model *end)
     bbm_list_gaps(&now);
     bbm_note_springs(&now, 1);
     for (int c = 0; c < m->elements; c++)
-        b->account[c].gain = b->account[c].there = b->account[c].work = b->account[c].moves = 0;
+        b->account[c].gain = b->account[c].there = b->account[c].work = b->account[c].asks
+                           = b->account[c].moves = 0;
     for (int i = 0; i < m->elements; i++) {
         bbm_account *of = &b->account[m->K->component[i]];
         const double *F = &m->F[6 * i], *load = &m->load[6 * i];
@@ -153,27 +154,38 @@ void bbm_find_accounts(bbm_model *m, const bbm_model *end)
             b->account[c].gain = b->account[c].there = 0;
 }
 
-/* A normal spring that began where its corner had come in over a ledge gets back a share of its
- * length. Without this, what slides over joints sinks at each one, for the next block has not yet
- * given way. A component pays for it with what it has lost in the step. Where velocities are not
- * kept at all it is free; where they keep a share there is no balance, and it is not done. First
- * the springs ask for energy, then they get it. */
-static void lengthen_springs(bbm_model *m, int they_ask)
+/* The energy that it takes to give a normal spring that share of what it may get in a step. One
+ * that is closed, but began at a depth, where its corner came in over a ledge, lacks length. */
+static double energy_to_lengthen(const bbm_model *m, const bbm_contact *c, double share)
+{
+    const int is_short = c->state != BBM_OPEN && c->N > 0 && c->rest < 0;
+    const double N = bbm_normal_force(m, c->d_n - c->rest * (1 - LONGER * share));
+
+    return is_short ? bbm_normal_energy(m, N) - bbm_normal_energy(m, c->N) : 0;
+}
+
+/* Short springs get longer. Without this, what slides over joints sinks at each one, for the next
+ * block has not yet given way. A component pays with what it has lost in the step, and all its
+ * springs get the same share. Where velocities are not kept at all they get it for nothing; where
+ * they keep a share there is no balance, and nothing is paid. */
+static void lengthen_springs(bbm_model *m)
 {
     const bbm_contact_scratch *w = m->scratch;
+    bbm_account *of = m->beyond->account;
 
+    for (const bbm_contact *c = w->contact; c < w->contact + w->contacts; c++)
+        of[m->K->component[m->edge[c->corner].element]].asks += energy_to_lengthen(m, c, 1);
+    for (bbm_account *a = of; a < of + m->K->components; a++) {
+        const double pays = m->par.velocity_factor == 0 ? a->asks : fmax(0, -a->gain);
+        a->share = a->asks > 0 ? fmin(1, pays / a->asks) : 0;
+    }
     for (bbm_contact *c = w->contact; c < w->contact + w->contacts; c++) {
         const int i = m->edge[c->corner].element;
-        bbm_account *own = &m->beyond->account[i], *of = &m->beyond->account[m->K->component[i]];
-        if (c->state == BBM_OPEN || c->N <= 0 || c->rest >= 0)
-            continue;
-        const double share = they_ask ? 1 : fmin(1, of->pays / of->asks);
-        const double rest = c->rest * (1 - LONGER * share);
-        const double N = bbm_normal_force(m, c->d_n - rest);
-        const double more = bbm_normal_energy(m, N) - bbm_normal_energy(m, c->N);
-        *(they_ask ? &of->asks : &of->gain) += more;
-        own->springs[0] += they_ask ? 0 : more;
-        c->rest = they_ask ? c->rest : rest;
+        bbm_account *body = &of[m->K->component[i]];
+        const double more = energy_to_lengthen(m, c, body->share);
+        of[i].springs[0] += more;
+        body->gain += more;
+        c->rest *= more > 0 ? 1 - LONGER * body->share : 1;
     }
 }
 
@@ -199,13 +211,10 @@ bbm_status bbm_check_balance(bbm_model *m, const bbm_model *end)
                         GAIN);
     b->made += share;
     b->gain = fmax(b->gain, b->made);
-    for (bbm_account *a = b->account; a < b->account + m->elements; a++) {
-        a->springs[0] = a->springs[1];
-        a->pays = m->par.velocity_factor == 0 ? INFINITY : fmax(0, -a->gain);
-        a->asks = 0;
-    }
-    for (int they_ask = bbm_motion_of(m) != NULL; they_ask >= 0; they_ask--)
-        lengthen_springs(m, they_ask);
+    for (int i = 0; i < m->elements; i++)
+        b->account[i].springs[0] = b->account[i].springs[1];
+    if (bbm_motion_of(m))
+        lengthen_springs(m);
     for (const bbm_account *a = b->account; a < b->account + m->K->components; a++) {
         b->work += a->work;
         b->gained += fmax(0, a->gain);

@@ -299,9 +299,10 @@ bbm_status bbm_check_passing(bbm_model *m, const bbm_model *end)
     const int n = m->scratch->contacts;
 
     for (const bbm_contact *c = list; c < list + n; c++) {
+        int over;
         if (c->state != BBM_OPEN || c->d_n >= 0 || c->trial.was_closed || c->inside)
             continue;
-        const double depth = bbm_depth_behind(end, c->corner, c->edge, &(int){ 0 });
+        const double depth = bbm_depth_behind(end, c->corner, c->edge, &over);
         if (depth > DEEPER * fmax(0, depth_between(m, list, n, c->corner, c->edge)))
             return refuse(m, end, c->corner, c->edge, depth);
     }

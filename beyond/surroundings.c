@@ -272,7 +272,8 @@ void bbm_find_reactions(bbm_model *m)
         for (int k = jumps; k < 2; k++)
             m->beyond->account[i].held[k] = 0;
     for (int n = 0; n < m->nodes; n++)
-        memset(s[n].part + jumps, 0, (size_t)(2 - jumps) * sizeof *s->part);
+        for (int k = jumps; k < 2; k++)
+            memset(s[n].part[k], 0, sizeof s[n].part[k]);
     for (int v = 0; v < m->vertices && !jumps; v++) {
         const int i = m->vertex[v].element;
         const bbm_element *e = &m->element[i];

@@ -901,7 +901,7 @@ START_TEST(a_slow_press_bears_what_its_springs_do)
         "block f0 rigid -3 -1 3 -1 3 0 -3 0\nblock b0 rock -0.5 0 0.5 0 0.5 1 -0.5 1\n"
         "block h rigid -0.4 1 0.4 1 0.4 2 -0.4 2\nfixblock f0\nfixblock h\ngravity 0 -9.81\ncontact kn 1e9 friction 30\n"
         "dynamic %s settle 100 ramp 40\nfix set h y by -0.0002\nmonitor H joint h b0\n", dynamic[_i]), 0);
-    ck_relative(cell("press", "history.csv", "", "H_normal"), (2e-4 - sinks) / compliance, 1e-2);    /* its ends give way more */
+    ck_relative(cell("press", "history.csv", "", "H_normal"), (2e-4 - sinks) / compliance, 2e-3);    /* the block bends, too */
 }
 END_TEST
 
