@@ -890,6 +890,27 @@ START_TEST(what_slides_over_soft_bricks_does_not_sink_into_them)
 }
 END_TEST
 
+/* A block passes a ledge of 0.1 mm without friction. Where it keeps its velocity nothing pays for its lift and it stays below;
+ * where it keeps none its springs get longer for nothing, and `gained` has its lift. */
+START_TEST(what_passes_a_ledge_is_lifted_only_by_energy_that_was_lost_or_that_is_told)
+{
+    static const char *const way[] = { "velocity s 1 0", "fix set s x by 3" };
+    const double W = 2500 * 2 * (1 + 1e-4) * 9.81, deep = W / 2e9 + W / 8e10, h = 1e-4;   /* the latter: its middle, by its strain */
+
+    ck_assert_int_eq(run_printed("lift", "material rock E 1e10 nu 0 density 2500\nblock lo rock -4 -1 0 -1 0 -1e-4 -4 -1e-4\n"
+        "block hi rock 0 -1 4 -1 4 0 0 0\nblock s rock -2.5 -1e-4 -0.5 -1e-4 -0.5 1 -2.5 1\nfixblock lo\nfixblock hi\n%s\n"
+        "gravity 0 -9.81\ncontact kn 1e9 friction 0\ndynamic dt 0.01 steps 300 velocity_factor %d\nmonitor m set s\n",
+        way[_i], 1 - _i), 0);
+    if (_i) {
+        ck_near(cell("lift", "history.csv", "", "m_v"), h - deep, h, 1e-3);
+        ck_relative(cell("lift", "summary.csv", "", "gained"), W * h, 0.03);     /* and what a spring has too much in its step */
+    } else {
+        ck_near(cell("lift", "history.csv", "", "m_v"), -deep, h, 0.1);             /* some of the energy of its swing at the ledge is lost */
+        ck_assert(cell("lift", "summary.csv", "", "gained") < 1e-9 * W / 9.81);     /* of twice its energy */
+    }
+}
+END_TEST
+
 /* A block on a floor is pressed from above by a block that comes down by 0.2 mm in 40 s. In steps so long it moves to and fro,
  * but the springs above and below it, 2 kn each, and its own stiffness bear what they should. */
 START_TEST(a_slow_press_bears_what_its_springs_do)
@@ -1641,6 +1662,7 @@ static void add_what_the_file_says(TCase *t)
     tcase_add_test(t, a_grid_point_that_passes_a_seam_doubles_no_force);
     tcase_add_test(t, what_slides_over_low_ledges_with_a_restitution_does_not_sink);
     tcase_add_loop_test(t, a_slow_press_bears_what_its_springs_do, 0, 3);
+    tcase_add_loop_test(t, what_passes_a_ledge_is_lifted_only_by_energy_that_was_lost_or_that_is_told, 0, 2);
     tcase_add_loop_test(t, a_slider_whose_front_stands_over_the_seam_of_free_blocks_goes_on, 0, 3);
     tcase_add_loop_test(t, a_block_whose_support_goes_falls_past_the_corners_that_met_it, 0, 5);
     tcase_add_test(t, the_last_of_a_row_flies_off_as_restitution_says);
