@@ -118,6 +118,7 @@ typedef struct {                /* what the detection and the open-close iterati
     double digits;              /* N        what a spring makes of the rounding of positions    */
     bbm_contact_state next_state;               /* in the next pass                             */
     int    closings;            /* how often it has closed in the step                          */
+    int    unsettled;           /* the last pass has changed its state or its friction          */
 } bbm_trial;
 
 struct bbm_contact {            /* vertex P1 of one block against an edge P2 P3 of another      */

@@ -223,7 +223,8 @@ static int change_states(bbm_model *m)
     }
     for (int k = 0; k < w->contacts; k++) {
         bbm_contact *c = &w->contact[k];
-        if (c->trial.next_state == c->state || (one ? c != worst : sure && bbm_is_at_corner(m, c)))
+        c->trial.unsettled = c->trial.next_state != c->state;
+        if (!c->trial.unsettled || (one ? c != worst : sure && bbm_is_at_corner(m, c)))
             continue;
         if (c->state == BBM_OPEN)
             close_contact(m, c);
@@ -266,7 +267,8 @@ bbm_pass bbm_open_close(bbm_model *m)
     for (bbm_contact *c = w->contact; c < w->contact + w->contacts; c++) {
         (c->state == BBM_OPEN ? measure_open : measure_closed)(m, c);
         find_tolerance(m, c);
-        renewed |= renew_friction(c);
+        c->trial.unsettled = renew_friction(c);
+        renewed |= c->trial.unsettled;
     }
     bbm_note_depths(m);
     if (renewed)

@@ -117,6 +117,7 @@ static void assembled(bbm_model *m)
  * well: right as far as one can tell, no corner passed, no energy from nowhere. */
 static bbm_status move(bbm_model *m)
 {
+    double hit[2] = { 0 };
     bbm_status status;
 
     if ((status = bbm_check_solution(m)) || (status = bbm_check_equilibrium(m))
@@ -125,8 +126,10 @@ static bbm_status move(bbm_model *m)
     bbm_find_reactions(m);
     bbm_model end = bbm_end_of_step(m);
     if ((status = bbm_check_reach(m, &end)) || (status = bbm_check_passing(m, &end))
-        || (status = bbm_jump(m, &end)) || (status = bbm_check_balance(m, &end)))
+        || (status = bbm_jump(m, &end, hit)) || (status = bbm_check_balance(m, &end)))
         return status;
+    m->beyond->hit[0] += hit[0];
+    m->beyond->hit[1] += hit[1];
     bbm_store_multipliers(m);
     bbm_keep_cracks(m);
     memcpy(m->element, end.element, (size_t)m->elements * sizeof *m->element);

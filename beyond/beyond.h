@@ -42,6 +42,7 @@ typedef struct {                /* energy.c: of an element, and of the component
     int    jumps;               /* impact.c: the component does; -1: it keeps no shape; -2: nor */
                                 /*          does it rub                                         */
     double asked;               /* -        of the energy that hits are to give back            */
+    int    unsettled;           /* the jump has found no states for all its contacts            */
     double asks;                /* J        what its short springs ask for to get longer        */
     double share;               /* -        of that which they get                              */
     double mass;                /* kg       in a hit: what is free to move                      */
@@ -250,7 +251,7 @@ void       bbm_set_plane_strain(bbm_model *m);          /* of the elements that 
 
 /* impact.c */
 void       bbm_stiffen(bbm_model *m);                   /* K of a step with a hit               */
-bbm_status bbm_jump(bbm_model *m, bbm_model *end);      /* of a step that has settled           */
+bbm_status bbm_jump(bbm_model *m, bbm_model *end, double hit[2]);   /* of a step that settled   */
 
 /* refuse.c, statics.c */
 bbm_status bbm_check_settings(bbm_model *m);

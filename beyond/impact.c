@@ -177,7 +177,7 @@ static void take_back(bbm_model *m)
 /* The elements at the end of the step. */
 static void start_elements(bbm_model *m, const bbm_model *end)
 {
-    double heaviest = 0, least = m->par.alpha, E[3][3];
+    double heaviest = 0, E[3][3];
 
     for (int i = 0; i < m->elements; i++) {
         bbm_element *e = &m->element[i];
@@ -186,9 +186,7 @@ static void start_elements(bbm_model *m, const bbm_model *end)
         bbm_element_geometry(e, &m->vertex[e->first]);
         if (m->K->body[i] < 0)
             bbm_follow_supports(m, e, support_velocity);
-        const double s = rigidity(end, i);
-        e->material.E *= s;
-        least = fmin(least, s);
+        e->material.E *= rigidity(end, i);
         bbm_elastic_matrix(&e->material, E);
         memset(e->stress, 0, sizeof e->stress);
         for (int a = 0; a < 6; a++) {
@@ -200,16 +198,18 @@ static void start_elements(bbm_model *m, const bbm_model *end)
         if (account_of(m, i)->jumps && mobility(m, i) > 0)
             heaviest = fmax(heaviest, 1 / mobility(m, i));
     }
-    m->par.alpha = end->par.alpha / least;
     m->par.p_n = m->par.p_s = fmax(end->par.p_n, STIFF * 2 * heaviest / (m->h * m->h));
 }
 
-static void start_gaps(bbm_model *m)
+static void start_gaps(bbm_model *m, const bbm_model *end)
 {
     double d[2];
 
     bbm_list_gaps(m);
     for (bbm_gap *g = m->gap; g < m->gap + m->gaps; g++) {
+        const int body = m->K->body[g->i], joins = g->j >= 0 && m->K->body[g->j] != body;
+        for (int a = 0; a < 4 && body >= 0 && !joins && !g->elastic; a++)
+            g->W[a / 2][a % 2] *= fmax(1 / rigidity(end, g->i), 1 / m->par.alpha);
         memset(g->d0, 0, sizeof g->d0);
         bbm_gap_length(m, g, d);
         for (int a = 0; a < 2; a++) {
@@ -248,21 +248,26 @@ static void start_contacts(bbm_model *m, const bbm_model *step)
     }
 }
 
-/* Solves until all contacts fit. */
+/* Solves until all contacts fit; if they do not, notes which components did not settle. */
 static bbm_status solve(bbm_model *m, const bbm_model *step, const bbm_model *end)
 {
+    const bbm_contact *c = m->scratch->contact;
     bbm_status status = BBM_OK;
     bbm_pass pass = BBM_PASS_AGAIN;
 
     m->scratch->passes = m->scratch->friction_passes = m->scratch->one_until = 0;
     start_elements(m, end);
-    start_gaps(m);
+    start_gaps(m, end);
     start_contacts(m, step);
     while (!status && pass == BBM_PASS_AGAIN) {
         bbm_assemble(m);
         status = bbm_solve(m->K, m->F, m->D, &m->par.pcg, &m->info.pcg);
         pass = bbm_open_close(m);
     }
+    for (int i = 0; i < m->elements; i++)
+        m->beyond->account[i].unsettled = status != BBM_OK;
+    for (; c < m->scratch->contact + m->scratch->contacts; c++)
+        account_of(m, m->edge[c->corner].element)->unsettled |= c->trial.unsettled;
     return status || pass == BBM_PASS_DONE ? status : BBM_OPEN_CLOSE;
 }
 
@@ -339,8 +344,9 @@ static void take(bbm_model *m, bbm_model *end)
 }
 
 /* The kinetic energy of the normal velocities of all hits, as they came and as they are left, with
- * the reduced mass of the two elements. */
-static void note_hits(const bbm_model *m, const bbm_model *step, const bbm_model *end)
+ * the reduced mass of the two elements, J. */
+static void find_energy_of_hits(const bbm_model *m, const bbm_model *step, const bbm_model *end,
+                                double hit[2])
 {
     for (int k = 0; k < m->scratch->contacts; k++) {
         const bbm_contact *c = &m->beyond->jump_of[k];
@@ -349,8 +355,8 @@ static void note_hits(const bbm_model *m, const bbm_model *step, const bbm_model
             continue;
         const double came = 2 / m->h * approach(step, c);
         const double left = normal_velocity(m, c, end->element);
-        m->beyond->hit[0] += came * came / (2 * mobile);
-        m->beyond->hit[1] += left * left / (2 * mobile);
+        hit[0] += came * came / (2 * mobile);
+        hit[1] += left * left / (2 * mobile);
     }
 }
 
@@ -374,11 +380,11 @@ static bbm_status choose(bbm_model *m, bbm_model *step, bbm_model *end)
         again = 0;
         for (bbm_account *a = of; a < of + m->elements; a++) {
             const double less = a->asked - ldexp(a->gain / a->there, tries);
-            const int fits = !status && (a->jumps < 0 || a->gain <= most * a->there);
+            const int fits = !a->unsettled && (a->jumps < 0 || a->gain <= most * a->there);
             if (fits || a->jumps == 0 || a->jumps == -2)
                 continue;
             a->jumps = a->jumps < 0 ? -2 : a->asked > 0 ? 1 : -1;
-            a->asked = status ? 0 : fmax(0, less);
+            a->asked = a->unsettled ? 0 : fmax(0, less);
             again = 1;
         }
     }
@@ -387,8 +393,8 @@ static bbm_status choose(bbm_model *m, bbm_model *step, bbm_model *end)
 
 /* The velocities at the end of the step, where a contact has closed or a support moves. `end` has
  * those of (14). The model of the jump is that at the end of the step, with lists of its own; its
- * gaps take the place of those of the step, which are listed anew. */
-bbm_status bbm_jump(bbm_model *m, bbm_model *end)
+ * gaps take the place of those of the step, which are listed anew. hit: their energy, 0. */
+bbm_status bbm_jump(bbm_model *m, bbm_model *end, double hit[2])
 {
     const size_t n = (size_t)m->elements, contacts = (size_t)m->scratch->contacts;
     bbm_status status = BBM_NO_MEMORY;
@@ -409,7 +415,7 @@ bbm_status bbm_jump(bbm_model *m, bbm_model *end)
         jump.load = jump.D + 6 * n;
         memcpy(list, m->scratch->contact, contacts * sizeof *list);
         status = choose(&jump, m, end);
-        note_hits(&jump, m, end);
+        find_energy_of_hits(&jump, m, end, hit);
     }
     free(jump.element);
     free(jump.F);
