@@ -119,8 +119,8 @@ static void add_work(bbm_account *a, double work)
 
 /* The accounts of the part of a step from m to `end`, one for each component of K: bodies that
  * touch, are near or are bonded. The force of a contact works along what rounding leaves of its
- * length, too: that is no gain. Where nothing has inertia, as in statics, and where velocities are
- * not kept, nothing is there. */
+ * length, too: that is no gain and no loss. Where nothing has inertia, as in statics, and where
+ * velocities are not kept, nothing is there. */
 void bbm_find_accounts(bbm_model *m, const bbm_model *end)
 {
     const bbm_beyond *b = m->beyond;
@@ -146,8 +146,9 @@ void bbm_find_accounts(bbm_model *m, const bbm_model *end)
     for (int k = 0; k < m->scratch->contacts; k++) {
         const bbm_contact *c = &m->scratch->contact[k];
         const bbm_vertex *P = bbm_start_of(m, c->corner);
-        b->account[m->K->component[P->element]].gain -= BBM_ROUNDING * fabs(c->N)
-                                                              * hypot(P->x, P->y);
+        double *gain = &b->account[m->K->component[P->element]].gain;
+        const double rounding = BBM_ROUNDING * fabs(c->N) * hypot(P->x, P->y);
+        *gain = copysign(fmax(0, fabs(*gain) - rounding), *gain);
     }
     for (int c = 0; c < m->elements; c++)
         if (!b->account[c].moves || m->par.velocity_factor < 1)
