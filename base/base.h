@@ -75,6 +75,7 @@ typedef struct {                /* Mohr and Coulomb: abs(T) <= N tan_phi + shear
 } bbm_strength;
 
 typedef struct { double x, y, length; } bbm_direction;          /* unit vector; m               */
+typedef struct { double x, y; } bbm_point;                      /* m, from model.origin         */
 
 struct bbm_edge {               /* a boundary edge from vertex a to b, its element on the left  */
     int element, a, b, block;
@@ -340,12 +341,11 @@ static inline int bbm_partner_of(const bbm_model *m, int v)
 }
 
 /* The point of the boundary at v: v, or halfway between the two that share it. */
-static inline void bbm_point_at(const bbm_model *m, int v, double at[2])
+static inline bbm_point bbm_point_at(const bbm_model *m, int v)
 {
     const bbm_vertex *P = &m->vertex[v], *Q = &m->vertex[bbm_partner_of(m, v)];
 
-    at[0] = (P->x + Q->x) / 2;
-    at[1] = (P->y + Q->y) / 2;
+    return (bbm_point){ (P->x + Q->x) / 2, (P->y + Q->y) / 2 };
 }
 
 /* Displacement of the point (x, y) by D: u = T D, or by a hook's motion. */

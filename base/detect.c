@@ -103,10 +103,8 @@ static int is_convex(const bbm_model *m, int arrives, int leaves)
 static void find_directions(bbm_model *m)
 {
     for (int e = 0; e < m->edges; e++) {
-        double a[2], b[2];
-        bbm_point_at(m, m->edge[e].a, a);
-        bbm_point_at(m, m->edge[e].b, b);
-        const double x = b[0] - a[0], y = b[1] - a[1], l = hypot(x, y);
+        const bbm_point a = bbm_point_at(m, m->edge[e].a), b = bbm_point_at(m, m->edge[e].b);
+        const double x = b.x - a.x, y = b.y - a.y, l = hypot(x, y);
         m->edge[e].along = (bbm_direction){ x / l, y / l, l };
     }
 }
@@ -314,11 +312,8 @@ typedef struct {                /* of P1 on an edge, m                          
 static projection project(const bbm_model *m, int corner, int e)
 {
     const bbm_direction t = m->edge[e].along;
-    double P[2], a[2];
-
-    bbm_point_at(m, m->edge[corner].a, P);
-    bbm_point_at(m, m->edge[e].a, a);
-    const double x = P[0] - a[0], y = P[1] - a[1], s = x * t.x + y * t.y;
+    const bbm_point P = bbm_point_at(m, m->edge[corner].a), a = bbm_point_at(m, m->edge[e].a);
+    const double x = P.x - a.x, y = P.y - a.y, s = x * t.x + y * t.y;
 
     return (projection){ x * t.y - y * t.x, s, fmax(-s, s - t.length) };
 }
@@ -912,23 +907,22 @@ bbm_status bbm_list_pairs(bbm_model *m, int *same)
 void bbm_end_distances(const bbm_model *m, const bbm_contact *c, double anchor, double d[2])
 {
     const int P[3] = { m->edge[c->corner].a, m->edge[c->edge].b, m->edge[c->edge].a };
-    double at[3][2], u[3][2], x[2], p[2], s[2];
+    bbm_point at[3];
+    displacement u[3];
 
     for (int k = 0; k < 3; k++) {
-        bbm_point_at(m, P[k], at[k]);
-        const displacement way = move_point(m, P[k]);
-        u[k][0] = way.x;
-        u[k][1] = way.y;
+        at[k] = bbm_point_at(m, P[k]);
+        u[k] = move_point(m, P[k]);
     }
-    for (int a = 0; a < 2; a++) {
-        const double at0 = at[2][a] + anchor * (at[1][a] - at[2][a]);
-        const double u0 = u[2][a] + anchor * (u[1][a] - u[2][a]);
-        x[a] = at[2][a] - at[1][a] + u[2][a] - u[1][a];
-        p[a] = at[0][a] - at[1][a] + u[0][a] - u[1][a];
-        s[a] = at[0][a] - at0 + u[0][a] - u0;
-    }
-    d[0] = (x[0] * p[1] - x[1] * p[0]) / m->edge[c->edge].along.length;
-    d[1] = (s[0] * x[0] + s[1] * x[1]) / m->edge[c->edge].along.length;
+    const double x0 = at[2].x + anchor * (at[1].x - at[2].x);
+    const double y0 = at[2].y + anchor * (at[1].y - at[2].y);
+    const double u0 = u[2].x + anchor * (u[1].x - u[2].x);
+    const double v0 = u[2].y + anchor * (u[1].y - u[2].y);
+    const double x3 = at[2].x - at[1].x + u[2].x - u[1].x, y3 = at[2].y - at[1].y + u[2].y - u[1].y;
+    const double x1 = at[0].x - at[1].x + u[0].x - u[1].x, y1 = at[0].y - at[1].y + u[0].y - u[1].y;
+    const double sx = at[0].x - x0 + u[0].x - u0, sy = at[0].y - y0 + u[0].y - v0;
+    d[0] = (x3 * y1 - y3 * x1) / m->edge[c->edge].along.length;
+    d[1] = (sx * x3 + sy * y3) / m->edge[c->edge].along.length;
 }
 
 /* The fraction of the step at which P gets deeper behind a line than at the surface: 0 if it starts

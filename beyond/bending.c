@@ -228,17 +228,18 @@ void bbm_shared_vectors(const bbm_model *m, const bbm_contact *c, double r, bbm_
     const int P[3] = { m->edge[c->corner].a, m->edge[c->edge].b, m->edge[c->edge].a };
     const double turns = m->element[m->vertex[P[0]].element].middle ? 1 : 0;
     const double weight[3] = { 1, -r, r - 1 }, turn[3] = { 0, -turns, turns };
-    double T[3][2][2][6], x[3][2], p[3][2] = { { 0 } }, at[2];
+    double T[3][2][2][6], p[3][2] = { { 0 } }, at[2];
+    bbm_point x[3];
 
     for (int k = 0; k < 6; k++) {
         const bbm_vertex *V = &m->vertex[k % 2 ? bbm_partner_of(m, P[k / 2]) : P[k / 2]];
         bbm_step_point(&m->element[V->element], V->x, V->y, T[k / 2][k % 2], at);
         p[k / 2][0] += at[0] / 2;
         p[k / 2][1] += at[1] / 2;
-        bbm_point_at(m, P[k / 2], x[k / 2]);
+        x[k / 2] = bbm_point_at(m, P[k / 2]);
     }
-    const double X = x[2][0] - x[1][0], Y = x[2][1] - x[1][1], l = hypot(X, Y);
-    const double x1 = x[0][0] - x[1][0], y1 = x[0][1] - x[1][1];
+    const double X = x[2].x - x[1].x, Y = x[2].y - x[1].y, l = hypot(X, Y);
+    const double x1 = x[0].x - x[1].x, y1 = x[0].y - x[1].y;
     memset(v, 0, 2 * sizeof *v);
     v[0].d = (X * y1 - Y * x1) / l;
     v[1].d = ((x1 + weight[2] * X) * X + (y1 + weight[2] * Y) * Y) / l;

@@ -26,8 +26,6 @@
 #define ENDS 1e-9
 #define DEEPER 1.1
 
-typedef struct { double x, y; } point;
-
 typedef struct {                /* where a point lies against a boundary                        */
     double distance2;           /* m^2      the square of its distance                          */
     int    nearest;             /* side                                                         */
@@ -36,7 +34,7 @@ typedef struct {                /* where a point lies against a boundary        
 
 /* Takes one more side of the boundary, from a to b. It counts as winding if it crosses the
  * horizontal line through P on its right: up or down. */
-static void take_side(point a, point b, int side, point P, place *at)
+static void take_side(bbm_point a, bbm_point b, int side, bbm_point P, place *at)
 {
     const double x = b.x - a.x, y = b.y - a.y, l2 = x * x + y * y;
     const double px = P.x - a.x, py = P.y - a.y, d = px * y - py * x, s = px * x + py * y;
@@ -54,16 +52,16 @@ static void take_side(point a, point b, int side, point P, place *at)
 /* --------------------------------------------------------------------------------- at the start */
 
 /* Corner k of element e at the start. */
-static point corner_of(const bbm_model *m, int e, int k)
+static bbm_point corner_of(const bbm_model *m, int e, int k)
 {
     const bbm_element *of = &m->element[e];
     const bbm_node *n = &m->node[m->vertex[of->first + (k + of->n) % of->n].node];
 
-    return (point){ n->x, n->y };
+    return (bbm_point){ n->x, n->y };
 }
 
 /* How deep P lies in element e; 0 outside. */
-static double depth_in(const bbm_model *m, int e, point P)
+static double depth_in(const bbm_model *m, int e, bbm_point P)
 {
     place at = { .distance2 = INFINITY };
 
@@ -73,7 +71,7 @@ static double depth_in(const bbm_model *m, int e, point P)
 }
 
 /* Where the side c d cuts the side p q, as a share of that; -1: nowhere, or both are parallel. */
-static double cut_at(point p, point q, point c, point d)
+static double cut_at(bbm_point p, bbm_point q, bbm_point c, bbm_point d)
 {
     const double x = q.x - p.x, y = q.y - p.y, u = d.x - c.x, v = d.y - c.y;
     const double cross = x * v - y * u;
@@ -84,7 +82,7 @@ static double cut_at(point p, point q, point c, point d)
 }
 
 /* Takes a point of elements i and j as their overlap if it is deeper than what is known. */
-static void note_depth(int i, int j, point P, double depth, bbm_overlap *o)
+static void note_depth(int i, int j, bbm_point P, double depth, bbm_overlap *o)
 {
     if (depth > o->depth)
         *o = (bbm_overlap){ i < j ? i : j, i < j ? j : i, depth, P.x, P.y };
@@ -94,7 +92,7 @@ static void note_depth(int i, int j, point P, double depth, bbm_overlap *o)
  * cuts of j's sides. */
 static void probe_side(const bbm_model *m, int i, int k, int j, bbm_overlap *o)
 {
-    const point p = corner_of(m, i, k), q = corner_of(m, i, k + 1);
+    const bbm_point p = corner_of(m, i, k), q = corner_of(m, i, k + 1);
     const int n = m->element[j].n;
 
     note_depth(i, j, p, depth_in(m, j, p), o);
@@ -103,7 +101,7 @@ static void probe_side(const bbm_model *m, int i, int k, int j, bbm_overlap *o)
         for (int b = a + 1; b <= n && s >= -ENDS; b++) {
             const double t = b == n ? 1 : cut_at(p, q, corner_of(m, j, b), corner_of(m, j, b + 1));
             const double mid = (s + t) / 2;
-            const point P = { p.x + mid * (q.x - p.x), p.y + mid * (q.y - p.y) };
+            const bbm_point P = { p.x + mid * (q.x - p.x), p.y + mid * (q.y - p.y) };
             if (t >= -ENDS)
                 note_depth(i, j, P, depth_in(m, j, P), o);
         }
@@ -115,8 +113,9 @@ static void probe_side(const bbm_model *m, int i, int k, int j, bbm_overlap *o)
 static void probe_element(const bbm_model *m, int i, int j, bbm_overlap *o)
 {
     for (int k = 0; k < m->element[i].n; k++) {
-        const point a = corner_of(m, i, k - 1), b = corner_of(m, i, k), c = corner_of(m, i, k + 1);
-        const point P = { (a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3 };
+        const bbm_point a = corner_of(m, i, k - 1), b = corner_of(m, i, k);
+        const bbm_point c = corner_of(m, i, k + 1);
+        const bbm_point P = { (a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3 };
         probe_side(m, i, k, j, o);
         note_depth(i, j, P, fmin(depth_in(m, i, P), depth_in(m, j, P)), o);
     }
@@ -129,9 +128,9 @@ static int are_apart(const bbm_model *m, int i, int j)
     int c = 0;
 
     for (int k = 0; k < n && c < all; k++) {
-        const point a = corner_of(m, i, k), b = corner_of(m, i, k + 1);
+        const bbm_point a = corner_of(m, i, k), b = corner_of(m, i, k + 1);
         for (c = 0; c < all; c++) {
-            const point P = c < n ? corner_of(m, i, c) : corner_of(m, j, c - n);
+            const bbm_point P = c < n ? corner_of(m, i, c) : corner_of(m, j, c - n);
             const double left = (b.x - a.x) * (P.y - a.y) - (b.y - a.y) * (P.x - a.x);
             if (c < n ? left < 0 : left > 0)
                 break;
@@ -188,15 +187,6 @@ bbm_status bbm_check_overlap(bbm_model *m)
 
 /* ------------------------------------------------------------------------------------ in a step */
 
-/* Where a vertex is for its contacts. */
-static point point_of(const bbm_model *m, int v)
-{
-    double P[2];
-
-    bbm_point_at(m, v, P);
-    return (point){ P[0], P[1] };
-}
-
 /* How deep a corner lies in the block of an edge, the distance from its boundary; 0 outside. The
  * outer boundary goes round what is inside once, and so does that of a hole, the other way. Where
  * an edge ends the next one starts a little apart, as far as their bonds have opened. The boundary
@@ -205,16 +195,16 @@ static point point_of(const bbm_model *m, int v)
  * come, the nearest that it can enter over, or else the nearest. */
 static double depth_in_block(const bbm_model *m, int corner, int edge, int *over)
 {
-    const point P = point_of(m, m->edge[corner].a);
+    const bbm_point P = bbm_point_at(m, m->edge[corner].a);
     place starts = { .distance2 = INFINITY }, ends = starts, entered = starts;
     int e = edge;
 
     do {
         const bbm_edge *E = &m->edge[e];
-        take_side(point_of(m, E->a), point_of(m, m->edge[E->after].a), e, P, &starts);
-        take_side(point_of(m, m->edge[E->before].b), point_of(m, E->b), e, P, &ends);
+        take_side(bbm_point_at(m, E->a), bbm_point_at(m, m->edge[E->after].a), e, P, &starts);
+        take_side(bbm_point_at(m, m->edge[E->before].b), bbm_point_at(m, E->b), e, P, &ends);
         if (bbm_may_enter(m, corner, e))
-            take_side(point_of(m, E->a), point_of(m, E->b), e, P, &entered);
+            take_side(bbm_point_at(m, E->a), bbm_point_at(m, E->b), e, P, &entered);
         e = E->next;
     } while (e != edge);
     *over = isfinite(entered.distance2) ? entered.nearest : starts.nearest;
@@ -241,8 +231,8 @@ static double depth_between(const bbm_model *m, const bbm_contact *c, int n, int
  * the edge over which it has come; else 0, as for two that are held, which have no contacts. */
 double bbm_depth_behind(const bbm_model *m, int corner, int edge, int *over)
 {
-    const point P = point_of(m, m->edge[corner].a), a = point_of(m, m->edge[edge].a);
-    const point b = point_of(m, m->edge[edge].b);
+    const bbm_point P = bbm_point_at(m, m->edge[corner].a), a = bbm_point_at(m, m->edge[edge].a);
+    const bbm_point b = bbm_point_at(m, m->edge[edge].b);
     const double x = P.x - a.x, y = P.y - a.y, u = b.x - a.x, v = b.y - a.y, l = hypot(u, v);
     const double s = x * u + y * v, allowed = bbm_allowed_depth(m, corner, edge);
 

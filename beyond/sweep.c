@@ -84,12 +84,10 @@ bbm_status bbm_find_near_pairs(bbm_model *m, double search)
     bbm_status status = b ? BBM_OK : BBM_NO_MEMORY;
 
     for (int e = 0; e < m->edges && !status; e++) {
-        double P[2], Q[2];
-        bbm_point_at(m, m->edge[e].a, P);
-        bbm_point_at(m, m->edge[e].b, Q);
+        const bbm_point P = bbm_point_at(m, m->edge[e].a), Q = bbm_point_at(m, m->edge[e].b);
         b[e] = bbm_empty_box(e);
-        bbm_widen_box(&b[e], P[0], P[1], search + bbm_rounding(m, e));
-        bbm_widen_box(&b[e], Q[0], Q[1], search + bbm_rounding(m, m->edge[e].after));
+        bbm_widen_box(&b[e], P.x, P.y, search + bbm_rounding(m, e));
+        bbm_widen_box(&b[e], Q.x, Q.y, search + bbm_rounding(m, m->edge[e].after));
     }
     if (!status)
         bbm_sort_boxes(m->edges, b);
@@ -97,10 +95,9 @@ bbm_status bbm_find_near_pairs(bbm_model *m, double search)
         for (int k = 0; k < 2 && !status; k++) {
             const bbm_box *e = &b[k ? i : j];
             const int corner = b[k ? j : i].of;
-            double P[2];
-            bbm_point_at(m, m->edge[corner].a, P);
-            if (m->edge[e->of].first == m->edge[corner].first || P[0] < e->low[X]
-                || P[0] > e->high[X] || P[1] < e->low[Y] || P[1] > e->high[Y])
+            const bbm_point P = bbm_point_at(m, m->edge[corner].a);
+            if (m->edge[e->of].first == m->edge[corner].first || P.x < e->low[X]
+                || P.x > e->high[X] || P.y < e->low[Y] || P.y > e->high[Y])
                 continue;
             if (bbm_depth_passed(m, corner, e->of) > 0) {
                 m->beyond->passed[0] = corner;
