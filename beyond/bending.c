@@ -207,11 +207,8 @@ void bbm_turn_opening(const bbm_element *i, const bbm_element *j, bbm_gap *g)
 int bbm_find_partner(const bbm_model *m, int v)
 {
     const bbm_edge *e = &m->edge[bbm_edge_at(m, v)];
-    const int start = e->a, end = m->edge[e->before].b;
 
-    if (m->beyond->bonding != BBM_MOMENT || (v != start && v != end))
-        return v;
-    return v == start ? end : start;
+    return m->beyond->bonding != BBM_MOMENT ? v : v == e->a ? m->edge[e->before].b : e->a;
 }
 
 /* The vectors of a contact some of whose points P1, P2, P3 are shared. Each point moves by u, the
