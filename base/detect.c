@@ -759,22 +759,12 @@ static const bbm_contact *find_ancestor(const bbm_model *m, pair p)
     return old;
 }
 
-/* Whether another block lies flush at the end of the edge where the corner is, and covers the edge
- * (0), or carries its boundary on (1). Unlike is_covered, also where the block of the corner lies
- * on that other block. */
-static int ends_flush(const bbm_model *m, int corner, int e, int goes_on)
-{
-    const int Q = end_near(m, corner, e);
-
-    return m->edge[Q].joined[(Q == e) != goes_on] >= 0;
-}
-
 /* Whether P has left a closed contact past a corner Q: an entrance line on which they can enter
- * each other is open, and no block that lies flush covers it; or there is no such line, and the
- * projection is off the edge. A P that hangs on a ledge has left, too: on a covered face of a
- * convex Q, not farther from Q than the rounding, where it can enter over the other face. There P
- * is at the surface, and the covered face is not in the way. A joint with strength holds it all the
- * same. */
+ * each other is open, and no block that lies flush covers it, also none on which that of P lies; or
+ * there is no such line, and the projection is off the edge. A P that hangs on a ledge has left,
+ * too: on a covered face of a convex Q, not farther from Q than the rounding, where it can enter
+ * over the other face. There P is at the surface, and the covered face is not in the way. A joint
+ * with strength holds it all the same. */
 static int has_left(const bbm_model *m, const bbm_contact *c)
 {
     const int Q = end_near(m, c->corner, c->edge), end = Q != c->edge;
@@ -785,7 +775,8 @@ static int has_left(const bbm_model *m, const bbm_contact *c)
         if (c->trial.entrance[k] < 0)
             continue;
         const pair r = m->scratch->pair[c->trial.entrance[k]];
-        if (ends_flush(m, r.corner, r.edge, 0))
+        const int at = end_near(m, r.corner, r.edge);
+        if (m->edge[at].joined[at == r.edge] >= 0)
             continue;
         if (project(m, r.corner, r.edge).d > 0 && bbm_may_enter(m, r.corner, r.edge))
             return 1;
@@ -822,7 +813,7 @@ static void continue_contact(const bbm_model *m, pair p, bbm_contact *c)
     c->edge = p.edge;
     c->trial.d_n0 = f.d;
     c->trial.was_closed = c->state != BBM_OPEN;
-    c->trial.beyond_end = f.beyond > (ends_flush(m, p.corner, p.edge, 1) ? seam : touch);
+    c->trial.beyond_end = f.beyond > (m->edge[near].joined[near != p.edge] >= 0 ? seam : touch);
     for (int k = 0; k < 4; k++) {
         pair other = meet(m, p, k / 2, k % 2 ? FLUSH : NEXT);
         if (k % 2 && are_parallel(m, p.edge, other.edge, 0))
