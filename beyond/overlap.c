@@ -249,13 +249,12 @@ double bbm_depth_behind(const bbm_model *m, int corner, int edge, int *over)
  * corner pass. Else 0. */
 double bbm_depth_passed(const bbm_model *m, int corner, int edge)
 {
-    int over = edge, first = m->edge[corner].contact, n = first;
-    const double depth = bbm_depth_behind(m, corner, edge, &over);
+    int over;
+    double depth = bbm_depth_behind(m, corner, edge, &over);
 
-    while (n < m->contacts && m->contact[n].corner == corner)
-        n++;
-    return depth == 0 || depth_between(m, m->contact + first, n - first, corner, edge) >= 0
-         ? 0 : depth;
+    for (int k = m->edge[corner].contact; k < m->contacts && m->contact[k].corner == corner; k++)
+        depth = depth_between(m, &m->contact[k], 1, corner, edge) >= 0 ? 0 : depth;
+    return depth;
 }
 
 /* Refuses a step before which, or a solution by which, a corner has passed the edge; end: the model
