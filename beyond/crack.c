@@ -456,9 +456,8 @@ bbm_status bbm_say_cracks(bbm_model *m, bbm_status s)
     const int told = bbm_is_static(m) && m->scratch->contacts > 0;      /* by statics.c */
     s = breaks <= BREAKS ? bbm_try_otherwise(m, s) : s;
     return s != BBM_OPEN_CLOSE || breaks == 0 || told ? s
-         : bbm_fail(m, s, "step %d at t = %g, %d passes, %d contacts, and bonds broke in %d "
-                    "passes; a smaller %s helps", m->info.step + 1, m->info.t, m->info.passes,
-                    m->scratch->contacts, breaks, bbm_is_static(m) ? "load" : "dt or load");
+         : bbm_fail(m, s, "step %d at t = %g, and bonds broke in %d passes; a smaller %s helps",
+                    m->info.step + 1, m->info.t, breaks, bbm_is_static(m) ? "load" : "dt or load");
 }
 
 /* Of a prepared model: nothing has broken yet. Refuses what breaking bonds are not for: hits that

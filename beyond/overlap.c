@@ -265,11 +265,10 @@ static bbm_status refuse(bbm_model *m, const bbm_model *end, int corner, int edg
     const int before = end == m;
 
     return bbm_fail(m, before ? BBM_BLOCKS_OVERLAP : BBM_STEP_TOO_LONG, "step %d: a corner of "
-                    "block %d %s into block %d at (%.9g, %.9g), %.2g m deep; %s%s",
+                    "block %d %s into block %d at (%.9g, %.9g), %.2g m deep; %s may help",
                     m->info.step + 1, m->edge[corner].block, before ? "passed" : "passes",
                     m->edge[edge].block, P->x + m->origin[0], P->y + m->origin[1], depth,
-                    bbm_is_static(m) ? "loads in several stages" : "a smaller dt",
-                    before ? ", or stiffer contacts and materials help" : " may help");
+                    bbm_is_static(m) ? "loads in several stages" : "a smaller dt");
 }
 
 /* Refuses a step at whose start a corner has passed an edge that the sweep has met. */

@@ -283,9 +283,8 @@ static bbm_status creep(bbm_model *m, const bbm_model *from)
     if (status == BBM_TOO_SOFT || (tried == 0 && has_reason))
         return status;
     return bbm_fail(m, BBM_OPEN_CLOSE, "step %d: neither an equilibrium nor a block that falls was "
-                    "found; try dynamics; after %d solutions forces lack %.1g of balance, and "
-                    "blocks have parted by %.1g of their size", from->info.step + 1,
-                    m->info.passes, lacks, parted);
+                    "found; try dynamics; forces lack %.1g of balance, and blocks have parted by "
+                    "%.1g of their size", from->info.step + 1, lacks, parted);
 }
 
 /* What steps change but the contacts, to one piece of memory or back. Returns its bytes; to NULL:
