@@ -86,6 +86,8 @@ typedef struct {
  * base/open_close.c. */
 #define DIGITS 1e-15
 #define ROUGH 1e-3
+/* Of the momentum of a body, in a step: half the last digit of a number. */
+#define LOST 1.1e-16
 
 static void measure(bodies *s)
 {
@@ -241,21 +243,25 @@ static void warn_of_gaps(const bodies *s, const char *path, int fall)
              name[s->body[at].near], name[at], s->body[at].gap, gaps);
 }
 
-/* E in GPa: a block that gives way to its own weight. Steps that are too long: by the time
- * in which a block falls by its own size. */
+/* E in GPa: a block that gives way to its own weight. Steps that are too long: by the time in which
+ * a block falls by its own size; and where what is bonded flies, by what its inertia loses in K
+ * beside the stiffness of its bonds, alpha (c dt/L)^2 times as large, c that of sound. */
 static void warn_of_times(const bodies *s, const char *path)
 {
     const bbm_model *m = s->p->m;
     const bbm_parameters *par = &m->par;
     const double g = hypot(par->gravity[0], par->gravity[1]);
-    double fall = INFINITY, softest = 0;
-    int soft = 0;
+    double fall = INFINITY, softest = 0, stiffest = 0;
+    int soft = 0, stiff = 0;
 
     for (int e = 0; e < m->elements; e++) {
         const bbm_element *i = &m->element[e];
         const body *b = &s->body[i->block];
         const bbm_material *r = &i->material;
         const double squeezed = r->density * g * (b->box.high[2] - b->box.low[2]) / r->E;
+        const double ratio = par->alpha * r->E * par->dt * par->dt / (r->density * i->A0);
+        if (b->elements > b->pieces && ratio > stiffest && !b->held)
+            stiffest = ratio, stiff = e;
         if (!b->free)
             continue;
         fall = fmin(fall, sqrt(2 * b->size / g));
@@ -267,6 +273,10 @@ static void warn_of_times(const bodies *s, const char *path)
              s->p->block[m->element[soft].block], 100 * softest, m->element[soft].material.E);
     if (s->p->dynamic && par->velocity_factor > 0 && par->dt > fall / 2)
         warn(path, "a step of %g s is long: a block falls by its size in %.2g s", par->dt, fall);
+    if (s->p->dynamic && par->velocity_factor == 1 && par->steps * LOST * stiffest > 1e-3)
+        warn(path, "a step of %g s is long: rounding may take %.1g of the momentum of block "
+             "'%.60s', whose bonds are so stiff", par->dt, fmin(1, par->steps * LOST * stiffest),
+             s->p->block[m->element[stiff].block]);
 }
 
 static void warn_of_bodies(const model *p, const char *path)
