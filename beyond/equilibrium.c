@@ -85,13 +85,15 @@ static double add_force(bbm_model *m, int i, const double F[6], int counts, doub
 static void add_gap(bbm_model *m, const bbm_gap *g)
 {
     const int *body = m->beyond->body, counts = g->j < 0 || body[g->i] != body[g->j];
-    const double k = g->W[0][0] + g->W[1][1];
+    const double k = g->j < 0 ? 0 : g->W[0][0] + g->W[1][1];
     bbm_balance *b = &m->beyond->balance[body[g->i]];
     double d[2], f[2], Fi[6] = { 0 }, Fj[6] = { 0 };
 
     bbm_gap_length(m, g, d);
     for (int a = 0; a < 2; a++) {
         f[a] = g->own.f[a] + g->W[a][0] * d[0] + g->W[a][1] * d[1];
+        for (int c = 0; c < 6 && g->j < 0; c++)     /* what is held in x may go far in y        */
+            b->rounding += BBM_ROUNDING * g->W[a][a] * fabs(g->Ti[a][c] * m->D[6 * g->i + c]);
         bbm_force_submatrix(f[a], g->Ti[a], Fi);
         bbm_force_submatrix(-f[a], g->Tj[a], Fj);
     }

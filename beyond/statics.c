@@ -349,9 +349,10 @@ static bbm_status settle(bbm_model *m)
     return status;
 }
 
-/* A static step that failed is tried otherwise, but not if a support moves: in steps from rest it
- * does so at once, and what it pushes stops anywhere where friction holds it. A dynamic step whose
- * contacts do not settle because the solution goes too far says that. */
+/* A static step that failed is tried otherwise where bodies meet, or bolts join them, but not if a
+ * support moves: in steps from rest it does so at once, and what it pushes stops anywhere where
+ * friction holds it. A dynamic step whose contacts do not settle because the solution goes too far
+ * says that. */
 bbm_status bbm_try_otherwise(bbm_model *m, bbm_status status)
 {
     if (!bbm_is_static(m))
@@ -359,7 +360,10 @@ bbm_status bbm_try_otherwise(bbm_model *m, bbm_status status)
              ? BBM_STEP_TOO_LONG : status;
     const int lost = status == BBM_NOT_FINITE
                   || (status >= BBM_NOT_POSITIVE_DEFINITE && status <= BBM_TOO_SOFT);
-    if (!lost || m->scratch->contacts == 0)
+    int meets = m->scratch->contacts > 0;
+    for (const bbm_gap *g = m->gap; g < m->gap + m->gaps; g++)
+        meets |= g->j >= 0 && m->beyond->body[g->i] != m->beyond->body[g->j];
+    if (!lost || !meets)
         return status;
     for (int n = 0; n < 2 * m->nodes; n++)
         if (m->beyond->support[n / 2].moved[n % 2] != 0)

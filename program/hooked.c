@@ -133,7 +133,7 @@ static scene_bolt part_of(const model *p, int q)
     return part;
 }
 
-/* The bolts stand behind the library's own gaps. */
+/* The bolts stand behind the library's own gaps. One that is broken holds nothing together. */
 static void list_gaps(bbm_model *m)
 {
     const model *p = hooked_of(m)->p;
@@ -141,7 +141,7 @@ static void list_gaps(bbm_model *m)
     bbm_list_edge_gaps(m);
     for (int q = 0; q < p->parts; q++) {
         const scene_bolt part = part_of(p, q);
-        find_gap(m, &part, bbm_add_gap(m, part.end[0].element, part.end[1].element));
+        find_gap(m, &part, bbm_add_gap(m, part.end[0].element, part.end[part.k > 0].element));
     }
 }
 

@@ -301,6 +301,39 @@ START_TEST(a_joint_that_breaks_says_how)
 }
 END_TEST
 
+/* A block of 20 kN that a roller keeps upright hangs on one bolt of 10 or 15 kN. The bolt has broken when the second step begins,
+ * or in the steps from rest in which a single step looks for an equilibrium. A stone elsewhere has contacts. */
+START_TEST(statics_names_what_falls_when_its_bolt_breaks)
+{
+    static const char *const held[] = { "fix at 50 0 of q x\nfix at 50 1 of q x\nstatic steps 2\n", "fix at 50 0 of q x\nstatic steps 1\n" };
+
+    ck_assert_int_eq(run_printed("drops", ROCK "block ground rock 0 -1 1 -1 1 0 0 0\nblock stone rock 0 0 1 0 1 1 0 1\n"
+        "block q rock 50 0 51 0 51 1 50 1\nblock roof rock 50 3 51 3 51 4 50 4\nfixblock ground\nfixblock roof\n"
+        "gravity 0 -9.81\ncontact friction 30\nbolt at 50.5 0.5 of q at 50.5 3.5 of roof stiffness 1e7 strength 1e4\n%s", held[_i]), 1);
+    check_text("out/model/drops.err", _i ? "forces lack 1 of balance" : "step 2: statics needs bodies that are held: block 'q'");
+}
+END_TEST
+
+/* A block hangs on two bolts side by side, with nothing else about that touches anything: it grows them by W/(2 k). */
+START_TEST(a_block_hangs_in_statics_on_bolts_that_let_it_swing)
+{
+    ck_assert_int_eq(run_text("swing", ROCK "block roof rock 0 3 1 3 1 4 0 4\nblock q rock 0 0 1 0 1 1 0 1\nfixblock roof\n"
+        "gravity 0 -9.81\nbolt at 0.3 0.5 of q at 0.3 3.5 of roof stiffness 1e6\nbolt at 0.7 0.5 of q at 0.7 3.5 of roof stiffness 1e6\n"
+        "static\nmonitor q set q\n"), 0);
+    ck_relative(cell("swing", "history.csv", "", "q_v"), -2500 * 9.81 / 2e6, 1e-6);
+}
+END_TEST
+
+/* A cantilever of two quadrilaterals breaks off in the first steps. Its other half, whose side is held, has no bond left then, and
+ * is held as before. */
+START_TEST(a_held_quadrilateral_that_loses_its_last_bond_makes_no_energy)
+{
+    ck_assert_int_eq(run_text("torn", "material a E 1e9 nu 0.2 density 2000\ngrid q a 0 0 2 1 2 1\nfix set q.left\n"
+        "bond tension 1e3 cohesion 3e3\ngravity 0 -9.81\ndynamic dt 0.001 steps 100\nmonitor tip at 2 0\n"), 0);
+    ck_relative(cell("torn", "history.csv", "", "tip_v"), -9.81 * 0.1 * 0.1 / 2, 0.01);    /* it leaves with some velocity */
+}
+END_TEST
+
 /* A block of 24.5 kN hangs on a bolt of 1 MN/m; one that is tight by as much holds it where it is. One
  * that breaks at 20 kN has grown by 0.02 m = W/K (1 - cos 20 t), t = 0.0693 s, from where the block falls on
  * with 0.482 m/s; the 10 mm are what steps of 1 ms make of when it breaks. */
@@ -1665,6 +1698,9 @@ static void add_loads_and_joints(TCase *t)
     tcase_add_loop_test(t, a_stage_changes_what_a_joint_takes_from_contact, 0, 4);
     tcase_add_test(t, a_joint_that_breaks_says_how);
     tcase_add_loop_test(t, a_block_hangs_on_its_bolt, 0, 4);
+    tcase_add_loop_test(t, statics_names_what_falls_when_its_bolt_breaks, 0, 2);
+    tcase_add_test(t, a_block_hangs_in_statics_on_bolts_that_let_it_swing);
+    tcase_add_test(t, a_held_quadrilateral_that_loses_its_last_bond_makes_no_energy);
     tcase_add_loop_test(t, a_bolt_holds_a_block_on_its_slope, 0, 4);
     tcase_add_loop_test(t, a_bolt_ends_anywhere_in_a_block, 0, 2);
     tcase_add_test(t, contacts_and_reactions_carry_the_weight);
