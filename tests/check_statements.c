@@ -498,9 +498,7 @@ static const struct { const char *model, *lets; int status; } limits[] = {
     { "dominoes", "-d spin=-1.45", 3 }, { "dominoes", "-d spin=-1.6", 0 },
     { "turning", "", 0 }, { "turning", "-d dt=0.001 -d steps=2000", 0 }, { "tunnel", "-d K=2 -d q=0", 0 },
     { "arch", "-d n=9 -d t=1.010 -d steps=400", 3 }, { "arch", "-d n=9 -d t=1.020 -d steps=400", 0 },
-    { "arch", "-d n=11 -d t=1.041 -d steps=400", 3 }, { "arch", "-d n=11 -d t=1.051 -d steps=400", 0 },
     { "arch", "-d n=16 -d t=1.066 -d steps=400", 3 }, { "arch", "-d n=16 -d t=1.077 -d steps=400", 0 },
-    { "arch", "-d n=21 -d t=1.062 -d steps=400", 3 }, { "arch", "-d n=21 -d t=1.072 -d steps=400", 0 },
     { "wall", "-d A=8 -d courses=4 -d bricks=8", 3 },
     { "slope", "-d wet=0.5 -d phi=38.98", 3 }, { "slope", "-d wet=0.5 -d phi=39.02", 0 },
     { "drop", "", 0 }, { "drop", "-d dt=0.001", 0 }, { "drop", "-d dt=0.0002", 0 }, { "drop", "-d dt=0.00005", 0 },
@@ -979,7 +977,7 @@ END_TEST
  * but the springs above and below it, 2 kn each, and its own stiffness bear what they should. */
 START_TEST(a_slow_press_bears_what_its_springs_do)
 {
-    static const char *const dynamic[] = { "dt 0.02 steps 2500", "dt 0.1 steps 500", "dt 2 steps 40" };
+    static const char *const dynamic[] = { "dt 0.1 steps 500", "dt 2 steps 40" };
     const double sinks = 2500 * 9.81 / 2e9, compliance = 2 / 2e9 + 1 / 1e11;
 
     ck_assert_int_eq(run_printed("press", "material rigid E 1e14 nu 0.25 density 2500\nmaterial rock E 1e11 nu 0 density 2500\n"
@@ -1728,7 +1726,7 @@ static void add_what_the_file_says(TCase *t)
     tcase_add_test(t, what_slides_over_soft_bricks_does_not_sink_into_them);
     tcase_add_test(t, a_grid_point_that_passes_a_seam_doubles_no_force);
     tcase_add_test(t, what_slides_over_low_ledges_with_a_restitution_does_not_sink);
-    tcase_add_loop_test(t, a_slow_press_bears_what_its_springs_do, 0, 3);
+    tcase_add_loop_test(t, a_slow_press_bears_what_its_springs_do, 0, 2);
     tcase_add_loop_test(t, a_column_between_a_floor_and_a_piston_may_stand_at_any_angle, 0, 8);
     tcase_add_test(t, the_hits_of_a_step_that_is_tried_again_count_once);
     tcase_add_loop_test(t, what_passes_a_ledge_is_lifted_only_by_energy_that_was_lost_or_that_is_told, 0, 2);
