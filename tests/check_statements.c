@@ -724,6 +724,15 @@ START_TEST(what_is_hardly_meant_is_a_warning_and_said_once)
 }
 END_TEST
 
+/* No part of the time is negative, and all parts together are no more than all of it, but for digits. */
+START_TEST(the_parts_of_the_time_are_shares_of_it)
+{
+    ck_assert_int_eq(run_text("timed", ROCK "grid a rock 0 0 2 1 60 30\nfix set a.left\ngravity 0 -9.81\nstatic\n"), 0);
+    ck_assert_int_eq(shell("awk -F, 'NR > 1 { bad += $2 < 0; sum += $1 == \"total\" ? -$2 : $2 } END { exit bad || sum > 1e-3 }' out/model/timed/timing.csv"), 0);
+    ck_assert_double_gt(cell("timed", "timing.csv", "precondition", "seconds"), 0);
+}
+END_TEST
+
 /* Of both kinds of steps, to the last byte. */
 START_TEST(bonds_are_as_stiff_as_the_document_says_unless_the_file_does)
 {
@@ -1705,6 +1714,7 @@ static void add_loads_and_joints(TCase *t)
     tcase_add_loop_test(t, a_joint_carries_the_weight_of_its_block, 0, 4);
     tcase_add_test(t, the_two_joints_of_a_wedge_hold_it);
     tcase_add_test(t, each_row_of_a_resting_block_carries_those_above);
+    tcase_add_test(t, the_parts_of_the_time_are_shares_of_it);
 }
 
 static void add_what_the_file_says(TCase *t)
