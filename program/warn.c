@@ -8,6 +8,9 @@ enum { NAMED = 10 };            /* pieces of a block that a warning names       
  * all of them are alike, which is 1, something slides freely. */
 #define UNSETTLED 0.01
 #define DRIFT 0.05
+/* Of the forces on a body: what statics may leave out of balance where it has led, since it takes
+ * the forces to have the arms that they had before its last step. */
+#define ELSEWHERE 2e-3
 /* With which rows of cells bend by 0.84 of what they should. */
 #define TAPER 0.5
 /* Of its size: an element that moves by less in a step is at rest but for rounding. */
@@ -450,6 +453,31 @@ void warn_in_step(const run *r, const char *path, int *said)
              p->element[who], p->block[p->m->element[who].block], most);
 }
 
+/* Of the forces on and in a body that has moved the share that does not balance where the last
+ * static step has led. The model stays as it is, but for D, F and K. */
+static double find_imbalance(bbm_model *m)
+{
+    bbm_pass (*const renew)(bbm_model *, bbm_pass) = m->hook->renew;
+    double share = 0;
+
+    if (bbm_begin_statics(m))
+        return 0;
+    memset(m->D, 0, 6 * (size_t)m->elements * sizeof *m->D);
+    bbm_assemble(m);
+    m->hook->renew = NULL;                                  /* nothing breaks */
+    (void)bbm_open_close(m);
+    m->hook->renew = renew;
+    (void)bbm_check_equilibrium(m);
+    for (int i = 0; i < m->elements; i++) {
+        const bbm_balance *b = &m->beyond->balance[m->beyond->body[i]];
+        const double *sum = m->element[i].sum, way = hypot(sum[0], sum[1]) / b->size;
+        const double left = fmax(hypot(b->force[0], b->force[1]), fabs(b->moment) / b->size);
+        if (fmax(way, fabs(sum[2])) > PARTED)
+            share = fmax(share, left / (b->forces + b->inside));
+    }
+    return share;
+}
+
 void warn_after(const model *p, const char *path)
 {
     double most = 0, strain = 0;
@@ -478,13 +506,17 @@ void warn_after(const model *p, const char *path)
                    "positions have no more digits; a smaller kn or softer bolts help",
              p->m->beyond->breach);
     warn_of_coarse_sides(p, path);
+    const double lack = p->dynamic ? 0 : find_imbalance(p->m);
     const bbm_status found = p->dynamic ? BBM_OK : bbm_find_stability(p->m, &stable);
     if (found == BBM_BLOCKS_OVERLAP)
         warn(path, "contacts are missing: %s", model_says(p, found, text));
     if (found == BBM_OK && !stable)
         warn(path, "in equilibrium, but not stable: a push, however small, moves it until other "
                    "contacts stop it, or for good");
-    if (!p->dynamic && p->stages == 0 && p->m->info.step > 1 && p->m->info.change > UNSETTLED)
+    if (lack > ELSEWHERE && most <= 0.1 && strain <= 0.1)
+        warn(path, "forces lack %.1g of balance where blocks have come to: more steps help", lack);
+    else if (!p->dynamic && p->stages == 0 && p->m->info.step > 1
+             && p->m->info.change > UNSETTLED)
         warn(path, "the last step was %.2g of the way of all: no equilibrium yet: more steps help",
              p->m->info.change);
 }

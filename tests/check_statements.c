@@ -687,6 +687,10 @@ static const struct { const char *text, *said; } doubtful[] = {
 #define BARS(k) "material r E 1e10 nu 0.2 density 2000\nblock b0 r 0 0 0.1 0.5 0 1 -0.1 0.5\nblock b1 r 0 1 0.1 1.5 0 2 -0.1 1.5\n" \
       "block w r 3 0 4 0 4 3 3 3\nfixblock w\npin b0 b1 at 0 1\nfix at 0 0 of b0\nload at 0 2 of b1 0 -1e5\n" \
       "bolt at 0 1 of b0 at 3 1 of w stiffness " k "\nbolt at 0 2 of b1 at 3 2 of w stiffness 1e6\ncontact friction 30\nstatic\n"
+    /* a block on two bolts at one corner: the second step ends 1e-4 m off, where bolts of 1 GN/m have 0.3 of its weight too much */
+#define HANGS "material r E 1e11 nu 0.2 density 2500\nblock w r -40 20 40 20 40 22 -40 22\nfixblock w\nblock b r 0 0 2 0 2 2 0 2\n" \
+      "bolt at 0 0 of b at -4 20 of w stiffness 1e9\nbolt at 0 0 of b at 4 20 of w stiffness 1e9\ngravity 0 -9.81\nstatic steps "
+    { HANGS "2\n", "forces lack 0.06 of balance where blocks have come to: more steps help\n" }, { HANGS "3\n", NULL },
     { BARS("2.6e5"), NULL },
     { BARS("1.9e5"), "in equilibrium, but not stable: a push, however small, moves it until other contacts stop it, or for good\n" },
     /* a post under water, 3.9 kN heavier than it, is pinned 1.025 m below its centre, and two lines hold it 2 m up:
