@@ -691,6 +691,9 @@ static const struct { const char *text, *said; } doubtful[] = {
 #define HANGS "material r E 1e11 nu 0.2 density 2500\nblock w r -40 20 40 20 40 22 -40 22\nfixblock w\nblock b r 0 0 2 0 2 2 0 2\n" \
       "bolt at 0 0 of b at -4 20 of w stiffness 1e9\nbolt at 0 0 of b at 4 20 of w stiffness 1e9\ngravity 0 -9.81\nstatic steps "
     { HANGS "2\n", "forces lack 0.06 of balance where blocks have come to: more steps help\n" }, { HANGS "3\n", NULL },
+    { "material r E 1e11 nu 0 density 2500\nblock w r -40 20 40 20 40 22 -40 22\nfixblock w\nblock b r 0 0 2 0 2 1 0 1\n"
+      "bolt at 0 1 of b at -3 20 of w stiffness 1e9\nbolt at 2 1 of b at 4 20 of w stiffness 1e9\ngravity 0 -9.81\nstatic steps 2\n",
+      "the last step was 0.018 of the way of all: no equilibrium yet: more steps help\n" },
     { BARS("2.6e5"), NULL },
     { BARS("1.9e5"), "in equilibrium, but not stable: a push, however small, moves it until other contacts stop it, or for good\n" },
     /* a post under water, 3.9 kN heavier than it, is pinned 1.025 m below its centre, and two lines hold it 2 m up:
