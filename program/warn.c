@@ -458,6 +458,7 @@ void warn_in_step(const run *r, const char *path, int *said)
 static double find_imbalance(bbm_model *m)
 {
     bbm_pass (*const renew)(bbm_model *, bbm_pass) = m->hook->renew;
+    const bbm_info info = m->info;
     double share = 0;
 
     if (bbm_begin_statics(m))
@@ -468,6 +469,7 @@ static double find_imbalance(bbm_model *m)
     (void)bbm_open_close(m);
     m->hook->renew = renew;
     (void)bbm_check_equilibrium(m);
+    m->info = info;
     for (int i = 0; i < m->elements; i++) {
         const bbm_balance *b = &m->beyond->balance[m->beyond->body[i]];
         const double *sum = m->element[i].sum, way = hypot(sum[0], sum[1]) / b->size;
