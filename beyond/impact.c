@@ -201,6 +201,9 @@ static void start_elements(bbm_model *m, const bbm_model *end)
     m->par.p_n = m->par.p_s = fmax(end->par.p_n, STIFF * 2 * heaviest / (m->h * m->h));
 }
 
+/* The gaps of the jump. The bonds of a body are listed alpha times as stiff as its elements are
+ * now. They become as stiff as these, or as they were if that is more, and so do its fixed points.
+ * What is held all round stays as stiff as it is listed, for hits lose what it gives way. */
 static void start_gaps(bbm_model *m, const bbm_model *end)
 {
     double d[2];
@@ -362,7 +365,8 @@ static void find_energy_of_hits(const bbm_model *m, const bbm_model *step, const
 
 /* The jump that is asked for. Where it makes energy, contacts are to give back less: by twice the
  * share that it makes, and in each further try by twice as much again, for what hits have may be a
- * small part of all. In the end nothing is asked, then nothing is kept, and then nothing rubs. */
+ * small part of all. In the end nothing is asked, then nothing is kept, and then nothing rubs. A
+ * component that settles and makes no energy keeps what it was asked for, whatever others do. */
 static bbm_status choose(bbm_model *m, bbm_model *step, bbm_model *end)
 {
     bbm_account *of = m->beyond->account;
@@ -393,7 +397,8 @@ static bbm_status choose(bbm_model *m, bbm_model *step, bbm_model *end)
 
 /* The velocities at the end of the step, where a contact has closed or a support moves. `end` has
  * those of (14). The model of the jump is that at the end of the step, with lists of its own; its
- * gaps take the place of those of the step, which are listed anew. hit: their energy, 0. */
+ * gaps take the place of those of the step, which are listed anew. hit, which begins with 0,
+ * gets the energy of the hits, as they came and as they are left. */
 bbm_status bbm_jump(bbm_model *m, bbm_model *end, double hit[2])
 {
     const size_t n = (size_t)m->elements, contacts = (size_t)m->scratch->contacts;

@@ -141,7 +141,8 @@ static void list_gaps(bbm_model *m)
     bbm_list_edge_gaps(m);
     for (int q = 0; q < p->parts; q++) {
         const scene_bolt part = part_of(p, q);
-        find_gap(m, &part, bbm_add_gap(m, part.end[0].element, part.end[part.k > 0].element));
+        const int i = part.end[0].element, j = part.k > 0 ? part.end[1].element : i;
+        find_gap(m, &part, bbm_add_gap(m, i, j));
     }
 }
 

@@ -247,8 +247,9 @@ static void warn_of_gaps(const bodies *s, const char *path, int fall)
 }
 
 /* E in GPa: a block that gives way to its own weight. Steps that are too long: by the time in which
- * a block falls by its own size; and where what is bonded flies, by what its inertia loses in K
- * beside the stiffness of its bonds, alpha (c dt/L)^2 times as large, c that of sound. */
+ * a block falls by its own size. And those in which a body that is bonded and not held loses
+ * momentum: in K its inertia stands beside its bonds, which are alpha (c dt/L)^2 times as stiff,
+ * with c the velocity of sound and L the side of an element, and loses its last digits. */
 static void warn_of_times(const bodies *s, const char *path)
 {
     const bbm_model *m = s->p->m;
