@@ -117,6 +117,7 @@ typedef struct {                /* what the detection and the open-close iterati
     int    friction_in_K;       /* 1: a hook takes friction for the N of the solution itself    */
     double force_tolerance;     /* N        forces that differ by less agree                    */
     double digits;              /* N        what a spring makes of the rounding of positions    */
+    int    rests;               /*          no force in its component is more than rounding     */
     bbm_contact_state next_state;               /* in the next pass                             */
     int    closings;            /* how often it has closed in the step                          */
     int    unsettled;           /* the last pass has changed its state or its friction          */

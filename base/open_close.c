@@ -134,18 +134,25 @@ static void measure_closed(const bbm_model *m, bbm_contact *c)
 
 /* The force tolerance of a contact: a share of its own force, or of the force on a body by which
  * its component is solved. The error of every N is small against this force alone. What the spring
- * makes of the rounding of positions is added, all of it where nothing loads the component and all
- * forces are rounding, but nothing in statics, whose one solution has none. */
+ * makes of the rounding of positions is added, all of it where that force would move an element by
+ * no more than rounding in a step, so that all forces are rounding. But nothing in statics, whose
+ * one solution has none. */
 static void find_tolerance(const bbm_model *m, bbm_contact *c)
 {
     const bbm_vertex *P2 = bbm_end_of(m, c->edge), *P3 = bbm_start_of(m, c->edge);
     const double load = m->K->forces[m->K->component[c->element[0]]];
     const double force = fmax(fabs(c->N), load);
-    const double lever = hypot(P2->x, P2->y) + hypot(P3->x, P3->y);
+    const double rounding = DIGITS * (hypot(P2->x, P2->y) + hypot(P3->x, P3->y));
+    double mass = INFINITY;
 
-    c->trial.digits = bbm_is_static(m) ? 0 : m->par.p_n * lever * DIGITS;
+    for (int k = 0; k < c->parts; k++) {
+        const bbm_element *e = &m->element[c->element[k]];
+        mass = fmin(mass, bbm_mass_per_area(e) * e->A);
+    }
+    c->trial.rests = load <= 2 * mass / (m->h * m->h) * rounding;
+    c->trial.digits = bbm_is_static(m) ? 0 : m->par.p_n * rounding;
     c->trial.force_tolerance = AGREE * force
-                             + (load > 0 ? fmin(c->trial.digits, FIT * force) : c->trial.digits);
+        + (c->trial.rests ? c->trial.digits : fmin(c->trial.digits, FIT * force));
 }
 
 /* Takes the N of this solution for the friction of the next one. Returns whether it is not the one

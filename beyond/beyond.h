@@ -39,6 +39,7 @@ typedef struct {                /* energy.c: of an element, and of the component
     double pressed;             /* N m      sum f.X of what presses on element i, see stability.c */
     double held[2];             /* J        work of the supports of element i, in a part of a   */
                                 /*          step, and in the jump at its end                    */
+    int    starts;              /* impact.c: a support of the component starts or stops         */
     int    jumps;               /* impact.c: the component does; -1: it keeps no shape; -2: nor */
                                 /*          does it rub                                         */
     double asked;               /* -        of the energy that hits are to give back            */

@@ -147,7 +147,7 @@ void bbm_find_accounts(bbm_model *m, const bbm_model *end)
         const bbm_contact *c = &m->scratch->contact[k];
         const bbm_vertex *P = bbm_start_of(m, c->corner);
         double *gain = &b->account[m->K->component[P->element]].gain;
-        const double rounding = BBM_ROUNDING * fabs(c->N) * hypot(P->x, P->y);
+        const double rounding = BBM_ROUNDING * hypot(c->N, c->T) * hypot(P->x, P->y);
         *gain = copysign(fmax(0, fabs(*gain) - rounding), *gain);
     }
     for (int c = 0; c < m->elements; c++)

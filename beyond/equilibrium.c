@@ -132,7 +132,8 @@ static void add_contact(bbm_model *m, const bbm_contact *c)
     const double digits = c->state == BBM_OPEN ? BBM_ROUNDING * size : 0;
     const double N = bbm_normal_force(m, c->d_n + digits - c->rest);
     const double T = fabs(bbm_shear_force(c)) - bbm_shear_strength(&c->strength, c->N);
-    const double solved = fmax(0, c->trial.force_tolerance - c->trial.digits);
+    const double rounding = c->trial.rests ? 0 : c->trial.digits;
+    const double solved = fmax(0, c->trial.force_tolerance - rounding);
     const double all = c->state != BBM_OPEN
                      ? fmax(fmax(fabs(N - c->N), T), -N - c->strength.tension)
                      : bbm_is_blocked(m, c) ? 0 : N;

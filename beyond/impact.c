@@ -66,14 +66,6 @@ static double normal_velocity(const bbm_model *m, const bbm_contact *c, const bb
     return velocity;
 }
 
-/* An unbroken joint does not hit. */
-static int may_hit(const bbm_contact *c)
-{
-    return !c->trial.was_closed && !(c->trial.touches && bbm_is_strong(c));
-}
-
-static int has_closed(const bbm_contact *c) { return c->state != BBM_OPEN && may_hit(c); }
-
 /* h/2 times the normal velocity with which P1 came. It has changed evenly until P1 hit, after the
  * share t of the step and the way d0. */
 static double approach(const bbm_model *m, const bbm_contact *c)
@@ -97,6 +89,21 @@ static bbm_account *account_of(const bbm_model *m, int i)
     return &m->beyond->account[m->K->component[i]];
 }
 
+/* What closes in the step hits. What was closed hits once more if a support of its component starts
+ * or stops: velocities change at once then. But an unbroken joint does not hit. */
+static int may_hit(const bbm_model *m, const bbm_contact *c)
+{
+    const int rests = c->trial.was_closed;
+
+    return !((rests || c->trial.touches) && bbm_is_strong(c))
+        && (!rests || account_of(m, c->element[0])->starts);
+}
+
+static int has_closed(const bbm_model *m, const bbm_contact *c)
+{
+    return c->state != BBM_OPEN && may_hit(m, c);
+}
+
 /* The velocity of a support at the end of the step. One that stands has none, and one that stood
  * before moves evenly. */
 static double support_velocity(const bbm_model *m, int node, int a)
@@ -115,10 +122,15 @@ static void find_hits(const bbm_model *m)
     const bbm_contact *c = m->scratch->contact;
 
     for (int i = 0; i < m->elements; i++)
-        m->beyond->account[i].mass = m->beyond->account[i].jumps = 0;
+        m->beyond->account[i].mass = m->beyond->account[i].jumps = m->beyond->account[i].starts = 0;
+    for (int v = 0; v < 2 * m->vertices; v++) {
+        const bbm_support *s = &m->beyond->support[m->vertex[v / 2].node];
+        account_of(m, m->vertex[v / 2].element)->starts |= (s->rate[v % 2] == 0)
+                                                        != (s->moved[v % 2] == 0);
+    }
     for (; c < m->scratch->contact + m->scratch->contacts && m->beyond->restitution >= 0; c++)
         account_of(m, m->edge[c->corner].element)->jumps |=
-            may_hit(c) && (c->state != BBM_OPEN || c->trial.closings > 0);
+            may_hit(m, c) && (c->state != BBM_OPEN || c->trial.closings > 0);
     for (int i = 0; i < m->elements; i++)
         if (account_of(m, i)->jumps && mobility(m, i) > 0)
             account_of(m, i)->mass += 1 / mobility(m, i);
@@ -237,7 +249,8 @@ static void start_contacts(bbm_model *m, const bbm_model *step)
         bbm_contact_vectors(m, c, 0, v);
         bbm_contact_vectors(m, c, 1, from_end);
         c->anchor = v[1].d / (v[1].d - from_end[1].d);      /* where d_s is 0: it is linear     */
-        const double back = has_closed(c) && c->hit != 1 ? E * sqrt(of->asked) : 0;
+        const int again = c->hit == 1 && !c->trial.was_closed;
+        const double back = has_closed(m, c) && !again ? E * sqrt(of->asked) : 0;
         const double asked = E < 0 ? m->h * normal_velocity(m, c, m->element)
                                    : back * fmax(0, -approach(step, c));
         c->rest = v[0].d + (of->jumps > 0) * asked;
@@ -337,7 +350,7 @@ static void take(bbm_model *m, bbm_model *end)
         bbm_contact *c = &m->scratch->contact[k];
         const int jumped = isfinite(c->rest), opens = c->state == BBM_OPEN;
         *c = m->beyond->jump_of[k];
-        if (!jumped || m->beyond->restitution < 0 || !(opens || has_closed(c)))
+        if (!jumped || m->beyond->restitution < 0 || !(opens || has_closed(m, c)))
             continue;
         c->hit = 1;
         c->area = 0;
@@ -354,7 +367,7 @@ static void find_energy_of_hits(const bbm_model *m, const bbm_model *step, const
     for (int k = 0; k < m->scratch->contacts; k++) {
         const bbm_contact *c = &m->beyond->jump_of[k];
         const double mobile = mobility(m, c->element[0]) + mobility(m, c->element[1]);
-        if (!has_closed(c) || mobile == 0)
+        if (!has_closed(m, c) || mobile == 0)
             continue;
         const double came = 2 / m->h * approach(step, c);
         const double left = normal_velocity(m, c, end->element);
