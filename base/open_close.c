@@ -143,12 +143,9 @@ static void find_tolerance(const bbm_model *m, bbm_contact *c)
     const double load = m->K->forces[m->K->component[c->element[0]]];
     const double force = fmax(fabs(c->N), load);
     const double rounding = DIGITS * (hypot(P2->x, P2->y) + hypot(P3->x, P3->y));
-    double mass = INFINITY;
+    const bbm_element *p = &m->element[c->element[0]], *q = &m->element[c->element[1]];
+    const double mass = fmin(bbm_mass_per_area(p) * p->A, bbm_mass_per_area(q) * q->A);
 
-    for (int k = 0; k < c->parts; k++) {
-        const bbm_element *e = &m->element[c->element[k]];
-        mass = fmin(mass, bbm_mass_per_area(e) * e->A);
-    }
     c->trial.rests = load <= 2 * mass / (m->h * m->h) * rounding;
     c->trial.digits = bbm_is_static(m) ? 0 : m->par.p_n * rounding;
     c->trial.force_tolerance = AGREE * force
