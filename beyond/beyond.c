@@ -5,7 +5,8 @@
 static void free_prepared(bbm_beyond *b)
 {
     void *const array[] = { b->middle, b->end_element, b->end_vertex, b->support, b->account,
-                            b->body, b->off, b->balance, b->crack, b->best, b->broke };
+                            b->body, b->off, b->balance, b->lacking, b->crack, b->best,
+                            b->broke };
 
     for (int k = 0; k < LENGTH(array); k++)
         free(array[k]);
@@ -34,11 +35,12 @@ static bbm_status check(bbm_model *m)
     b->account = calloc(n, sizeof *b->account);
     b->body = calloc(2 * n, sizeof *b->body);
     b->balance = calloc(n, sizeof *b->balance);
+    b->lacking = calloc(12 * n, sizeof *b->lacking);
     b->crack = calloc(2 * bonds, sizeof *b->crack);
     b->best = calloc((size_t)m->nodes, sizeof *b->best);
     b->broke = calloc(bonds, sizeof *b->broke);
     if (!b->middle || !b->end_element || !b->end_vertex || !b->support || !b->off || !b->account
-        || !b->body || !b->balance || !b->crack || !b->best || !b->broke)
+        || !b->body || !b->balance || !b->lacking || !b->crack || !b->best || !b->broke)
         return BBM_NO_MEMORY;
     const bbm_status status = bbm_begin_cracks(m);
     if (status)
@@ -104,7 +106,7 @@ static bbm_pass renew(bbm_model *m, bbm_pass next)
     }
     if (next == BBM_PASS_DONE && (next = bbm_break_joints(m)) == BBM_PASS_DONE)
         next = bbm_break_bonds(m);
-    return next;
+    return next == BBM_PASS_DONE ? bbm_refine(m) : next;
 }
 
 static void assembled(bbm_model *m)

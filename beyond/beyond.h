@@ -55,6 +55,8 @@ typedef struct {                /* equilibrium.c: of a body, at its first elemen
     double force[2], moment;    /* N, N m   what is left: the sum, and about the centre         */
     double forces, rounding;    /* N        all of them without direction; of what is left      */
     double inside;              /* N        the forces inside it, without direction             */
+    double polar;               /* m^4      of its area                                         */
+    int stiff;                  /* against its inertia                                          */
     double breach;              /* N        the most that a contact or bolt has against its law */
 } bbm_balance;
 
@@ -131,6 +133,8 @@ struct bbm_beyond {
     int *body;                  /* [2 elements] the first element of its body, what bonds join; */
                                 /*          the second half is scratch                          */
     bbm_balance *balance;       /* [elements] equilibrium.c: of the solution in hand            */
+    double *lacking;            /* [12 elements] N, m: F that is left, and the D that it asks for */
+    int refined;                /*          how often the solution in hand was made better      */
     double lack;                /* -        the most that a body has left, without inertia      */
     double parted;              /* -        how far blocks went in steps from rest, in sizes    */
     double overload;            /* -        crack.c: load of a bond over its strength, least 1  */
@@ -269,6 +273,7 @@ bbm_status bbm_try_otherwise(bbm_model *m, bbm_status s);
  * moment; nobody knows a limit load better. */
 #define BBM_BALANCED 1e-6
 void       bbm_contact_forces(const bbm_model *m, const bbm_contact *c, double F[BBM_PARTS][6]);
+bbm_pass   bbm_refine(bbm_model *m);
 bbm_status bbm_check_equilibrium(bbm_model *m);         /* of the solution in hand              */
 
 /* stability.c */

@@ -21,12 +21,14 @@
 
 /* IN_MOTION [-]  what may be left in dynamics: a step makes no more of its energy, see energy.c
  * NO_FORCE [N]   in any unit: the solver has such a force in place of 0
+ * STIFF [-]      what K has on its diagonal against inertia: a step loses 1e-16 times as much of it
  * INSIDE [-]     of the force by which the component is solved, of the forces inside a body, and of
  *                what would bring a support to its place at once: the solution is no more exact,
  *                and a body may bear nothing else
  * UNLOADED [-]   of what its bonds can carry: a piece that has broken off and bears less bears
  *                nothing. The solver knows the forces from before the break to 1e-10 */
 #define IN_MOTION 1e-5
+#define STIFF 1e7
 #define NO_FORCE 1e-60
 #define INSIDE 1e-10
 #define UNLOADED 1e-9
@@ -174,9 +176,8 @@ static const bbm_balance *worst_of(const bbm_model *m, double (*share)(const bbm
     return worst;
 }
 
-/* Refuses a solution in which the forces on a body do not balance, or in statics a contact breaks
- * its law. Notes what is left or broken without inertia. */
-bbm_status bbm_check_equilibrium(bbm_model *m)
+/* Adds up the forces on all bodies. Notes what is left or broken without inertia. */
+static void add_up(bbm_model *m)
 {
     begin_bodies(m);
     for (int i = 0; i < m->elements; i++) {
@@ -203,6 +204,57 @@ bbm_status bbm_check_equilibrium(bbm_model *m)
         add_force(m, i, s.F, 1, 0);
         add_force(m, i, F, 1, 0);
     }
+}
+
+/* Whether K of an element has lost digits of its inertia, which stands beside stiffness there. */
+static int is_stiff(const bbm_model *m, int i)
+{
+    const double inertia = 2 * bbm_mass_per_area(&m->element[i]) * m->element[i].A / (m->h * m->h);
+
+    return bbm_has_inertia(m, i) && m->K->D[m->K->place[i]][0][0] > STIFF * inertia;
+}
+
+/* In dynamics, what K has lost of the inertia of a body is missing in its balance, which is exact,
+ * for its bonds cancel there. Force and moment that are left, spread as on a body that is moved and
+ * turned as a whole, ask K for the rest of D. */
+bbm_pass bbm_refine(bbm_model *m)
+{
+    double *r = m->beyond->lacking, *d = r + 6 * m->elements;
+    bbm_pcg_info info;
+    int stiff = 0;
+
+    for (int i = 0; i < m->elements && !bbm_is_static(m); i++)
+        stiff |= is_stiff(m, i);
+    if (!stiff || m->beyond->refined++ > 0)
+        return BBM_PASS_DONE;
+    add_up(m);
+    for (int i = 0; i < m->elements; i++) {
+        const bbm_element *e = &m->element[i];
+        bbm_balance *b = &m->beyond->balance[m->beyond->body[i]];
+        b->stiff |= is_stiff(m, i);
+        b->polar += e->A * (pow(e->x - b->x, 2) + pow(e->y - b->y, 2) + e->A / 6);
+    }
+    for (int i = 0; i < m->elements; i++) {
+        const bbm_element *e = &m->element[i];
+        const bbm_balance *b = &m->beyond->balance[m->beyond->body[i]];
+        const double share = b->stiff ? e->A / b->area : 0;
+        const double turns = b->stiff ? e->A * b->moment / b->polar : 0;
+        r[6 * i] = share * b->force[0] - turns * (e->y - b->y);
+        r[6 * i + 1] = share * b->force[1] + turns * (e->x - b->x);
+        r[6 * i + 2] = turns * e->A / 6;
+    }
+    if (bbm_solve(m->K, r, d, &m->par.pcg, &info))
+        return BBM_PASS_DONE;
+    for (int k = 0; k < 6 * m->elements; k++)
+        m->D[k] += d[k];
+    return BBM_PASS_NEW_D;
+}
+
+/* Refuses a solution in which the forces on a body do not balance, or in statics a contact breaks
+ * its law. */
+bbm_status bbm_check_equilibrium(bbm_model *m)
+{
+    add_up(m);
     const bbm_balance *worst = worst_of(m, lack_of), *broken = worst_of(m, breach_share);
     const double lack = lack_of(worst), breach = breach_share(broken);
     if (lack > (bbm_is_static(m) ? BBM_BALANCED : IN_MOTION))
