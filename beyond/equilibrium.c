@@ -34,7 +34,8 @@
 #define UNLOADED 1e-9
 
 /* Centre and size of each body, the side of a square of its area. No forces. A body is noted at its
- * first element, which begins it before the others add to it. */
+ * first element, which begins it before the others add to it. A stiff one has lost digits of its
+ * inertia, which stands beside stiffness in K. */
 static void begin_bodies(bbm_model *m)
 {
     bbm_balance *body = m->beyond->balance;
@@ -44,11 +45,15 @@ static void begin_bodies(bbm_model *m)
         bbm_balance *b = &body[m->beyond->body[i]];
         const bbm_element *e = &m->element[i];
         b->area += e->A;
+        b->polar += e->A * (e->A / 6 + (1 - e->A / b->area) * (pow(e->x - b->x, 2)
+                                                               + pow(e->y - b->y, 2)));
         b->x += (e->x - b->x) * e->A / b->area;
         b->y += (e->y - b->y) * e->A / b->area;
         b->size = sqrt(b->area);
         b->inside += sqrt(e->A) * e->material.thickness
                    * (fabs(e->stress[0]) + fabs(e->stress[1]) + fabs(e->stress[2]));
+        b->stiff |= bbm_has_inertia(m, i) && m->K->D[m->K->place[i]][0][0]
+                    > STIFF * 2 * bbm_mass_per_area(e) * e->A / (m->h * m->h);
         b->rounding = UNLOADED * m->beyond->bond_tension * b->size * e->material.thickness;
     }
 }
@@ -206,14 +211,6 @@ static void add_up(bbm_model *m)
     }
 }
 
-/* Whether K of an element has lost digits of its inertia, which stands beside stiffness there. */
-static int is_stiff(const bbm_model *m, int i)
-{
-    const double inertia = 2 * bbm_mass_per_area(&m->element[i]) * m->element[i].A / (m->h * m->h);
-
-    return bbm_has_inertia(m, i) && m->K->D[m->K->place[i]][0][0] > STIFF * inertia;
-}
-
 /* In dynamics, what K has lost of the inertia of a body is missing in its balance, which is exact,
  * for its bonds cancel there. Force and moment that are left, spread as on a body that is moved and
  * turned as a whole, ask K for the rest of D. */
@@ -223,17 +220,12 @@ bbm_pass bbm_refine(bbm_model *m)
     bbm_pcg_info info;
     int stiff = 0;
 
-    for (int i = 0; i < m->elements && !bbm_is_static(m); i++)
-        stiff |= is_stiff(m, i);
+    begin_bodies(m);
+    for (int i = 0; i < m->elements; i++)
+        stiff |= m->beyond->balance[i].stiff;
     if (!stiff || m->beyond->refined++ > 0)
         return BBM_PASS_DONE;
     add_up(m);
-    for (int i = 0; i < m->elements; i++) {
-        const bbm_element *e = &m->element[i];
-        bbm_balance *b = &m->beyond->balance[m->beyond->body[i]];
-        b->stiff |= is_stiff(m, i);
-        b->polar += e->A * (pow(e->x - b->x, 2) + pow(e->y - b->y, 2) + e->A / 6);
-    }
     for (int i = 0; i < m->elements; i++) {
         const bbm_element *e = &m->element[i];
         const bbm_balance *b = &m->beyond->balance[m->beyond->body[i]];
