@@ -211,9 +211,9 @@ static void add_up(bbm_model *m)
     }
 }
 
-/* In dynamics, what K has lost of the inertia of a body is missing in its balance, which is exact,
- * for its bonds cancel there. Force and moment that are left, spread as on a body that is moved and
- * turned as a whole, ask K for the rest of D. */
+/* What K has lost of the inertia of a body that keeps its velocity is missing in the balance of its
+ * forces, which is exact, for those of its bonds cancel. What is left of the balance, spread as on a
+ * body that moves and turns as a whole, asks K for the rest of D. */
 bbm_pass bbm_refine(bbm_model *m)
 {
     double *r = m->beyond->lacking, *d = r + 6 * m->elements;
@@ -223,7 +223,7 @@ bbm_pass bbm_refine(bbm_model *m)
     begin_bodies(m);
     for (int i = 0; i < m->elements; i++)
         stiff |= m->beyond->balance[i].stiff;
-    if (!stiff || m->beyond->refined++ > 0)
+    if (!stiff || m->par.velocity_factor < 1 || m->beyond->refined++ > 0)
         return BBM_PASS_DONE;
     add_up(m);
     for (int i = 0; i < m->elements; i++) {
