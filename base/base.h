@@ -161,11 +161,8 @@ typedef struct {                /* of a contact: its length is d + e.D_i + g.D_j
 enum { BBM_MAX_PASSES = 30, BBM_MAX_DETECTIONS = 8 };
 
 /* What follows a pass of the open-close iteration: nothing, for all fits; a solution with a new K
- * and F; a solution with a new F alone; a look at a D that a hook has changed; the end of this
- * attempt. */
-typedef enum {
-    BBM_PASS_DONE, BBM_PASS_AGAIN, BBM_PASS_SAME_K, BBM_PASS_NEW_D, BBM_PASS_GIVE_UP
-} bbm_pass;
+ * and F; a solution with a new F alone; the end of this attempt. */
+typedef enum { BBM_PASS_DONE, BBM_PASS_AGAIN, BBM_PASS_SAME_K, BBM_PASS_GIVE_UP } bbm_pass;
 
 struct bbm_contact_scratch {
     /* --- the contacts of the step --- */
@@ -271,7 +268,7 @@ struct bbm_hooks {
                                                             /* where a point is such a corner   */
     double (*friction)(bbm_model *m, const bbm_contact *c, const bbm_spring v[2]);
                                         /* puts it in K for the N of the solution; returns Fr */
-    bbm_pass (*renew)(bbm_model *m, bbm_pass next);         /* T, F or D for the next pass      */
+    bbm_pass (*renew)(bbm_model *m, bbm_pass next);         /* T or F for the next solution     */
     /* --- the end of the step --- */
     bbm_status (*move)(bbm_model *m);                       /* moves the model, or refuses to   */
     bbm_status (*failed)(bbm_model *m, bbm_status s);       /* another way, or why it failed    */

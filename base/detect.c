@@ -536,8 +536,8 @@ static const bbm_contact *find_closed(const bbm_model *m, int corner, int edge)
 }
 
 /* Whether the corner may come to the edge in this step, and not from behind it. One that was closed
- * stays near, and one that was inside as long as it is so by no more than its rounding, also far
- * from the end that it came past. One that has opened inside after a hit may be deeper. */
+ * is not deeper than contacts are, and stays near. One that was inside does so as long as it is no
+ * deeper than its rounding, also far from the end that it came past. */
 static int is_near(const bbm_model *m, int corner, int e)
 {
     const double approach = reach_of(m, corner)->travel + reach_of(m, e)->travel;
@@ -550,9 +550,8 @@ static int is_near(const bbm_model *m, int corner, int e)
         return 0;
     const bbm_contact *c = find_closed(m, corner, e);
     const double rounding = c ? bbm_rounding(m, corner) : rounding_between(m, corner, e);
-    return (c && (c->state != BBM_OPEN || c->hit == 2))
-        || (-f.d <= approach + fmax(deep, rounding)
-            && (c || f.beyond > touch_between(m, corner, e) || f.d >= -deep));
+    return -f.d <= approach + fmax(deep, rounding)
+        && (c || f.beyond > touch_between(m, corner, e) || f.d >= -deep);
 }
 
 /* Whether the pair may not touch. What was closed may, but two elements that are held all round

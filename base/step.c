@@ -268,10 +268,9 @@ bbm_status bbm_try_step(bbm_model *m)
         status = bbm_detect(m, &holds);             /* 3.7: which contacts may close            */
     while (!status && !holds) {
         do {
-            if (pass != BBM_PASS_SAME_K && pass != BBM_PASS_NEW_D)
+            if (pass != BBM_PASS_SAME_K)
                 bbm_assemble(m);                    /* K, F: 3.1 to 3.8                         */
-            if (pass != BBM_PASS_NEW_D)
-                status = solve(m);                  /* K D = F: section 4                       */
+            status = solve(m);                      /* K D = F: section 4                       */
             if (!status)
                 status = open_close(m, &pass);      /* 3.7: do the contacts fit the solution?   */
         } while (!status && pass != BBM_PASS_DONE);

@@ -35,18 +35,17 @@
 
 /* Centre and size of each body, the side of a square of its area. No forces. A body is noted at its
  * first element, which begins it before the others add to it. A stiff one has lost digits of its
- * inertia, which stands beside stiffness in K. */
-static void begin_bodies(bbm_model *m)
+ * inertia, which stands beside stiffness in K; returns whether there is one. */
+static int begin_bodies(bbm_model *m)
 {
     bbm_balance *body = m->beyond->balance;
+    int any = 0;
 
     for (int i = 0; i < m->elements; i++) {
         body[i] = (bbm_balance){ .inside = m->K->forces[m->K->component[i]] };
         bbm_balance *b = &body[m->beyond->body[i]];
         const bbm_element *e = &m->element[i];
         b->area += e->A;
-        b->polar += e->A * (e->A / 6 + (1 - e->A / b->area) * (pow(e->x - b->x, 2)
-                                                               + pow(e->y - b->y, 2)));
         b->x += (e->x - b->x) * e->A / b->area;
         b->y += (e->y - b->y) * e->A / b->area;
         b->size = sqrt(b->area);
@@ -54,8 +53,10 @@ static void begin_bodies(bbm_model *m)
                    * (fabs(e->stress[0]) + fabs(e->stress[1]) + fabs(e->stress[2]));
         b->stiff |= bbm_has_inertia(m, i) && m->K->D[m->K->place[i]][0][0]
                     > STIFF * 2 * bbm_mass_per_area(e) * e->A / (m->h * m->h);
+        any |= b->stiff;
         b->rounding = UNLOADED * m->beyond->bond_tension * b->size * e->material.thickness;
     }
+    return any;
 }
 
 /* A force on element i that should not be, or is missing. */
@@ -212,34 +213,28 @@ static void add_up(bbm_model *m)
 }
 
 /* What K has lost of the inertia of a body that keeps its velocity is missing in the balance of its
- * forces, which is exact, for those of its bonds cancel. What is left of the balance, spread as on a
- * body that moves and turns as a whole, asks K for the rest of D. */
+ * forces, which is exact, for those of its bonds cancel. What is left of the balance, spread over
+ * the elements of the body, asks K for the rest of D, and contacts are judged anew. */
 bbm_pass bbm_refine(bbm_model *m)
 {
     double *r = m->beyond->lacking, *d = r + 6 * m->elements;
     bbm_pcg_info info;
-    int stiff = 0;
 
-    begin_bodies(m);
-    for (int i = 0; i < m->elements; i++)
-        stiff |= m->beyond->balance[i].stiff;
-    if (!stiff || m->par.velocity_factor < 1 || m->beyond->refined++ > 0)
+    if (!begin_bodies(m) || m->par.velocity_factor < 1 || m->beyond->refined++ > 0)
         return BBM_PASS_DONE;
     add_up(m);
     for (int i = 0; i < m->elements; i++) {
-        const bbm_element *e = &m->element[i];
         const bbm_balance *b = &m->beyond->balance[m->beyond->body[i]];
-        const double share = b->stiff ? e->A / b->area : 0;
-        const double turns = b->stiff ? e->A * b->moment / b->polar : 0;
-        r[6 * i] = share * b->force[0] - turns * (e->y - b->y);
-        r[6 * i + 1] = share * b->force[1] + turns * (e->x - b->x);
-        r[6 * i + 2] = turns * e->A / 6;
+        const double share = b->stiff ? m->element[i].A / b->area : 0;
+        r[6 * i] = share * b->force[0];
+        r[6 * i + 1] = share * b->force[1];
+        r[6 * i + 2] = share * b->moment;
     }
     if (bbm_solve(m->K, r, d, &m->par.pcg, &info))
         return BBM_PASS_DONE;
     for (int k = 0; k < 6 * m->elements; k++)
         m->D[k] += d[k];
-    return BBM_PASS_NEW_D;
+    return bbm_open_close(m);
 }
 
 /* Refuses a solution in which the forces on a body do not balance, or in statics a contact breaks

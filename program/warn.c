@@ -89,8 +89,8 @@ typedef struct {
  * base/open_close.c. */
 #define DIGITS 1e-15
 #define ROUGH 1e-3
-/* Of the momentum of a body, in a step: half the last digit of a number. */
-#define LOST 1.1e-16
+/* Bonds of a body beside its inertia in K, which then has next to no digits left. */
+#define STIFFEST 1e12
 
 static void measure(bodies *s)
 {
@@ -255,8 +255,8 @@ static void warn_of_times(const bodies *s, const char *path)
     const bbm_model *m = s->p->m;
     const bbm_parameters *par = &m->par;
     const double g = hypot(par->gravity[0], par->gravity[1]);
-    double fall = INFINITY, softest = 0, stiffest = 0;
-    int soft = 0, stiff = 0;
+    double fall = INFINITY, softest = 0;
+    int soft = 0, stiff = -1;
 
     for (int e = 0; e < m->elements; e++) {
         const bbm_element *i = &m->element[e];
@@ -264,8 +264,8 @@ static void warn_of_times(const bodies *s, const char *path)
         const bbm_material *r = &i->material;
         const double squeezed = r->density * g * (b->box.high[2] - b->box.low[2]) / r->E;
         const double ratio = par->alpha * r->E * par->dt * par->dt / (r->density * i->A0);
-        if (b->elements > b->pieces && ratio > stiffest && !b->held)
-            stiffest = ratio, stiff = e;
+        if (b->elements > b->pieces && ratio > STIFFEST && !b->held)
+            stiff = e;
         if (!b->free)
             continue;
         fall = fmin(fall, sqrt(2 * b->size / g));
@@ -277,10 +277,9 @@ static void warn_of_times(const bodies *s, const char *path)
              s->p->block[m->element[soft].block], 100 * softest, m->element[soft].material.E);
     if (s->p->dynamic && par->velocity_factor > 0 && par->dt > fall / 2)
         warn(path, "a step of %g s is long: a block falls by its size in %.2g s", par->dt, fall);
-    if (s->p->dynamic && par->velocity_factor == 1 && par->steps * LOST * stiffest > 1e-3)
-        warn(path, "a step of %g s is long: rounding may take %.1g of the momentum of block "
-             "'%.60s', whose bonds are so stiff", par->dt, fmin(1, par->steps * LOST * stiffest),
-             s->p->block[m->element[stiff].block]);
+    if (s->p->dynamic && par->velocity_factor == 1 && stiff >= 0)
+        warn(path, "a step of %g s is long: rounding takes momentum of block '%.60s', whose bonds "
+             "are so stiff", par->dt, s->p->block[m->element[stiff].block]);
 }
 
 static void warn_of_bodies(const model *p, const char *path)
