@@ -145,6 +145,12 @@ struct bbm_beyond {
     double made;                /* -        what the step in hand has, as in `gain`             */
 };
 
+/* The end of the list of contacts of the step in hand. */
+static inline const bbm_contact *bbm_end_of_contacts(const bbm_model *m)
+{
+    return m->scratch->contact + m->scratch->contacts;
+}
+
 bbm_status bbm_beyond_new(bbm_model **m);               /* bbm_model_new, with all of it        */
 
 /* coarse.c: two levels, for pcg.method */

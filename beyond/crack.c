@@ -241,11 +241,10 @@ static int renew_pushes(bbm_model *m)
  * contacts and bolts; -1: there is none. What a crack presses on is not held: it may slide. */
 static int find_loose(const bbm_model *m)
 {
-    const bbm_contact *c = m->scratch->contact, *end = c + m->scratch->contacts;
     int *body = m->beyond->body + m->elements;
 
     bbm_find_pieces(m, body);
-    for (; c < end; c++)
+    for (const bbm_contact *c = m->scratch->contact; c < bbm_end_of_contacts(m); c++)
         if (c->state != BBM_OPEN)
             body[bbm_root_of(body, c->element[0])] = bbm_root_of(body, c->element[1]);
     for (const bbm_gap *g = m->gap + 2 * m->bonds; g < m->gap + m->gaps; g++)

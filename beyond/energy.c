@@ -143,8 +143,7 @@ void bbm_find_accounts(bbm_model *m, const bbm_model *end)
         for (int a = 0; a < 6; a++)
             add_work(of, load[a] * m->D[6 * i + a]);
     }
-    for (int k = 0; k < m->scratch->contacts; k++) {
-        const bbm_contact *c = &m->scratch->contact[k];
+    for (const bbm_contact *c = m->scratch->contact; c < bbm_end_of_contacts(m); c++) {
         const bbm_vertex *P = bbm_start_of(m, c->corner);
         double *gain = &b->account[m->K->component[P->element]].gain;
         const double rounding = BBM_ROUNDING * hypot(c->N, c->T) * hypot(P->x, P->y);
@@ -171,16 +170,15 @@ static double energy_to_lengthen(const bbm_model *m, const bbm_contact *c, doubl
  * they keep a share there is no balance, and nothing is paid. */
 static void lengthen_springs(bbm_model *m)
 {
-    const bbm_contact_scratch *w = m->scratch;
     bbm_account *of = m->beyond->account;
 
-    for (const bbm_contact *c = w->contact; c < w->contact + w->contacts; c++)
+    for (const bbm_contact *c = m->scratch->contact; c < bbm_end_of_contacts(m); c++)
         of[m->K->component[m->edge[c->corner].element]].asks += energy_to_lengthen(m, c, 1);
     for (bbm_account *a = of; a < of + m->K->components; a++) {
         const double pays = m->par.velocity_factor == 0 ? a->asks : fmax(0, -a->gain);
         a->share = a->asks > 0 ? fmin(1, pays / a->asks) : 0;
     }
-    for (bbm_contact *c = w->contact; c < w->contact + w->contacts; c++) {
+    for (bbm_contact *c = m->scratch->contact; c < bbm_end_of_contacts(m); c++) {
         const int i = m->edge[c->corner].element;
         bbm_account *body = &of[m->K->component[i]];
         const double more = energy_to_lengthen(m, c, body->share);

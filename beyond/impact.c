@@ -119,8 +119,6 @@ static double support_velocity(const bbm_model *m, int node, int a)
  * and finds the mass in them that is free to move. */
 static void find_hits(const bbm_model *m)
 {
-    const bbm_contact *c = m->scratch->contact;
-
     for (int i = 0; i < m->elements; i++)
         m->beyond->account[i].mass = m->beyond->account[i].jumps = m->beyond->account[i].starts = 0;
     for (int v = 0; v < 2 * m->vertices; v++) {
@@ -128,9 +126,9 @@ static void find_hits(const bbm_model *m)
         account_of(m, m->vertex[v / 2].element)->starts |= (s->rate[v % 2] == 0)
                                                         != (s->moved[v % 2] == 0);
     }
-    for (; c < m->scratch->contact + m->scratch->contacts && m->beyond->restitution >= 0; c++)
-        account_of(m, m->edge[c->corner].element)->jumps |=
-            may_hit(m, c) && (c->state != BBM_OPEN || c->trial.closings > 0);
+    for (const bbm_contact *c = m->scratch->contact; c < bbm_end_of_contacts(m); c++)
+        account_of(m, m->edge[c->corner].element)->jumps |= m->beyond->restitution >= 0
+            && may_hit(m, c) && (c->state != BBM_OPEN || c->trial.closings > 0);
     for (int i = 0; i < m->elements; i++)
         if (account_of(m, i)->jumps && mobility(m, i) > 0)
             account_of(m, i)->mass += 1 / mobility(m, i);
@@ -267,7 +265,6 @@ static void start_contacts(bbm_model *m, const bbm_model *step)
 /* Solves until all contacts fit; if they do not, notes which components did not settle. */
 static bbm_status solve(bbm_model *m, const bbm_model *step, const bbm_model *end)
 {
-    const bbm_contact *c = m->scratch->contact;
     bbm_status status = BBM_OK;
     bbm_pass pass = BBM_PASS_AGAIN;
 
@@ -282,7 +279,7 @@ static bbm_status solve(bbm_model *m, const bbm_model *step, const bbm_model *en
     }
     for (int i = 0; i < m->elements; i++)
         m->beyond->account[i].unsettled = status != BBM_OK;
-    for (; c < m->scratch->contact + m->scratch->contacts; c++)
+    for (const bbm_contact *c = m->scratch->contact; c < bbm_end_of_contacts(m); c++)
         account_of(m, m->edge[c->corner].element)->unsettled |= c->trial.unsettled;
     return status || pass == BBM_PASS_DONE ? status : BBM_OPEN_CLOSE;
 }
@@ -302,11 +299,10 @@ static int moves(const bbm_model *m, int node)
  * does not decide which corner of a flat block is first. */
 static int find_causes(const bbm_model *m, const bbm_model *end)
 {
-    bbm_contact *c = m->scratch->contact;
     int any = 0;
 
     find_hits(m);
-    for (; c < m->scratch->contact + m->scratch->contacts; c++)
+    for (bbm_contact *c = m->scratch->contact; c < bbm_end_of_contacts(m); c++)
         if (account_of(m, c->element[0])->jumps && c->state == BBM_OPEN && !c->trial.was_closed
             && c->d_n < -EARLY * m->h * normal_velocity(m, c, end->element)
             && !bbm_is_blocked(m, c)) {

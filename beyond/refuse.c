@@ -112,9 +112,7 @@ bbm_status bbm_check_solution(bbm_model *m)
 /* Whether the springs of all contacts keep their blocks apart. */
 bbm_status bbm_check_depth(bbm_model *m)
 {
-    const bbm_contact *c = m->scratch->contact, *end = c + m->scratch->contacts;
-
-    for (; c < end; c++)
+    for (const bbm_contact *c = m->scratch->contact; c < bbm_end_of_contacts(m); c++)
         if (c->state != BBM_OPEN && c->hit < 2 && -c->d_n > DEEP * bbm_size_at(m, c))
             return bbm_fail(m, BBM_TOO_SOFT, "step %d: a corner of block %d is %.2g m deep in "
                             "block %d, a tenth of the smaller one; larger stiffnesses p_n, p_s "

@@ -172,10 +172,9 @@ static double find_rounding(const bbm_model *m, const bbm_contact *c)
  * by more than a share of the largest one on its elements, or in direction. */
 int bbm_contacts_are_off(const bbm_model *m, double share)
 {
-    const bbm_contact *c = m->scratch->contact, *end = c + m->scratch->contacts;
     int off = 0;
 
-    for (; c < end && !off; c++) {
+    for (const bbm_contact *c = m->scratch->contact; c < bbm_end_of_contacts(m) && !off; c++) {
         double d[2], force = fabs(c->N);
         if (c->state == BBM_OPEN)
             continue;
