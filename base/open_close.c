@@ -221,15 +221,13 @@ static int change_states(bbm_model *m)
     bbm_contact *worst = NULL;
     int changes = 0, sure = 0;
 
-    for (int k = 0; k < w->contacts; k++) {
-        bbm_contact *c = &w->contact[k];
+    for (bbm_contact *c = w->contact; c < w->contact + w->contacts; c++) {
         c->trial.next_state = find_next_state(m, c);
         if (c->trial.next_state != c->state && (!worst || misfit(m, c) > misfit(m, worst)))
             worst = c;
         sure |= c->trial.next_state != c->state && !bbm_is_at_corner(m, c);
     }
-    for (int k = 0; k < w->contacts; k++) {
-        bbm_contact *c = &w->contact[k];
+    for (bbm_contact *c = w->contact; c < w->contact + w->contacts; c++) {
         c->trial.unsettled = c->trial.next_state != c->state;
         if (!c->trial.unsettled || (one ? c != worst : sure && bbm_is_at_corner(m, c)))
             continue;

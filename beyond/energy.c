@@ -80,12 +80,10 @@ void bbm_note_springs(bbm_model *m, int when)
 
     for (int i = 0; i < m->elements; i++)
         a[i].springs[when] = 0;
-    for (int k = 0; k < m->gaps; k++) {
-        const bbm_gap *g = &m->gap[k];
+    for (const bbm_gap *g = m->gap; g < m->gap + m->gaps; g++)
         for (int r = 0; r < 2; r++)
             a[g->i].springs[when] += g->d0[r] / 2
                     * (g->own.f[r] + g->W[r][0] * g->d0[0] + g->W[r][1] * g->d0[1]);
-    }
     for (int k = 0; k < m->scratch->contacts; k++) {
         const bbm_contact *c = &m->scratch->contact[k];
         const double T = bbm_shear_force(c);

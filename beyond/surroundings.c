@@ -283,8 +283,7 @@ void bbm_find_reactions(bbm_model *m)
             s[m->vertex[v].node].part[0][a] -=
                 bbm_interpolation(e, &m->vertex[e->first], v - e->first).f * W[a];
     }
-    for (int k = 0; k < m->gaps; k++) {
-        bbm_gap *g = &m->gap[k];
+    for (const bbm_gap *g = m->gap; g < m->gap + m->gaps; g++) {
         double d[2];
         if (g->j >= 0)
             continue;
