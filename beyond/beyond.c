@@ -142,10 +142,9 @@ static bbm_status move(bbm_model *m)
 
 bbm_status bbm_beyond_new(bbm_model **out)
 {
-    const bbm_status status = bbm_model_new(out);
-    bbm_model *m = *out;
+    bbm_model *m = bbm_model_new(out) ? NULL : *out;
 
-    if (status || !(m->beyond = calloc(1, sizeof *m->beyond))) {
+    if (!m || !(m->beyond = calloc(1, sizeof *m->beyond))) {
         bbm_model_free(m);
         *out = NULL;
         return BBM_NO_MEMORY;
