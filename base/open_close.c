@@ -306,7 +306,6 @@ void bbm_store_contacts(bbm_model *m)
             c->area = 0;
         c->inside = c->state == BBM_OPEN && c->d_n < 0 && (c->trial.was_closed || c->inside);
         m->info.contacts += c->state != BBM_OPEN;
-        if (c->state != BBM_OPEN)
-            m->info.penetration = fmax(m->info.penetration, -c->d_n);
+        m->info.penetration = fmax(m->info.penetration, c->state == BBM_OPEN ? 0 : -c->d_n);
     }
 }
