@@ -51,14 +51,13 @@ static void press(const bbm_model *m, const bbm_edge_load *load, int r, const do
                   double N[6], double sinks[6][6], double turns[6][6])
 {
     const bbm_element *e = &m->element[m->vertex[load->a].element];
-    const int end_of[2] = { load->a, bbm_next_vertex(e, load->a) };
     const double weight = weight_of(m, load), end = bbm_is_static(m) ? r : 0.5;
     const double whole = weight > 0 && e->middle ? 1 / cos(e->middle->D[2] / 2) : 1;
     const double middle = load->level - e->y - D[1] / 2;
     double U[2][2][6], x[2][2], depth[2], from = 0, to = 1;     /* T at the two ends, and there */
 
     for (int i = 0; i < 2; i++) {
-        const bbm_vertex *P = &m->vertex[end_of[i]];
+        const bbm_vertex *P = &m->vertex[i ? bbm_next_vertex(e, load->a) : load->a];
         bbm_step_point(e, P->x, P->y, U[i], x[i]);
         depth[i] = load->level - P->y;
         for (int k = 0; k < 6; k++)
