@@ -184,7 +184,6 @@ static bbm_pass renew(bbm_model *m, bbm_pass next)
         find_gap(m, &part, &now);
         if (hypot(now.W[0][0] - g->W[0][0], now.W[0][1] - g->W[0][1]) > DIRECTION * part.k) {
             bbm_set_middle(m);
-            bbm_list_gaps(m);
             next = BBM_PASS_AGAIN;
         }
     }
