@@ -184,8 +184,7 @@ void case_row(case_results *r, const char *quantity, const double xy[2], double 
 static void compare_all(case_results *r, const case_experiment *p, const bbm_model *m,
                         const case_run *run, const case_reference *ref)
 {
-    for (int i = 0; i < ref->values; i++) {
-        const struct case_value *f = &ref->value[i];
+    for (const struct case_value *f = ref->value; f < ref->value + ref->values; f++) {
         const double xy[2] = { f->x, f->y };
         char name[40];
         const double value = p->computed(m, f->quantity, f->x, f->y);
@@ -213,8 +212,7 @@ static void print_summary(const case_experiment *e, bbm_model *const m[],
                           const case_reference ref[])
 {
     printf("\n| %s, alpha = 1000 | computed | exact | error |\n|---|---|---|---|\n", e->summary);
-    for (int i = 0; i < e->points && m[e->point[i].run]; i++) {
-        const case_point *p = &e->point[i];
+    for (const case_point *p = e->point; p < e->point + e->points && m[p->run]; p++) {
         const double value = e->computed(m[p->run], p->quantity, p->x, p->y);
         const double exact = case_find(&ref[p->run], p->quantity, p->x, p->y)->converged;
         printf("| %s(%.0f,%.0f)%s | %.4f | %.4f | %+.2f %% |\n", p->quantity, p->x, p->y,

@@ -108,8 +108,7 @@ static int add_nodes(model_reader *r)
     join_copies(r, up, box);
     p->node = model_keep(r, r->copies, sizeof *p->node);
     p->node_block = model_keep(r, r->copies, sizeof *p->node_block);
-    for (int n = 0; n < r->nodes && !p->status; n++) {
-        model_node *a = &r->node[n];
+    for (const model_node *a = r->node; a < r->node + r->nodes && !p->status; a++) {
         if (a->first < 0 && a->by_hand)
             return model_fail(r, a->at, "no element has node %.60s, expected one", a->id);
         for (int c = a->first; c >= 0; c = r->copy[c].next) {

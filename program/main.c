@@ -214,8 +214,7 @@ static void describe_blocks(const model *p, int touching)
         puts("no memory to describe the blocks");
         return;
     }
-    for (int e = 0; e < m->elements; e++) {
-        const bbm_element *i = &m->element[e];
+    for (const bbm_element *i = m->element; i < m->element + m->elements; i++) {
         of[i->block].elements++;
         of[i->block].mass += i->material.density * i->material.thickness * i->A0;
     }

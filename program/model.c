@@ -125,15 +125,13 @@ int model_start(model *p)
     bbm_model *m = p->m;
     double (*sum)[3] = calloc((size_t)p->blocks, sizeof *sum);
 
-    for (int e = 0; e < m->elements && sum; e++) {
-        const bbm_element *i = &m->element[e];
+    for (const bbm_element *i = m->element; i < m->element + m->elements && sum; i++) {
         const double mass = i->material.density * i->material.thickness * i->A0;
         sum[i->block][0] += mass * i->x;
         sum[i->block][1] += mass * i->y;
         sum[i->block][2] += mass;
     }
-    for (int e = 0; e < m->elements && sum; e++) {
-        bbm_element *i = &m->element[e];
+    for (bbm_element *i = m->element; i < m->element + m->elements && sum; i++) {
         const double *v = p->velocity[i->block].V, *s = sum[i->block];
         const double x = i->x - s[0] / s[2], y = i->y - s[1] / s[2];
         memcpy(i->V, (double[6]){ v[0] - v[2] * y, v[1] + v[2] * x, v[2] }, sizeof i->V);

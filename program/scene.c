@@ -1033,8 +1033,7 @@ static double find_scale(const scene *s, const bbm_model *m)
         plot_widen(range, x[v].x, x[v].y);
         moved = fmax(moved, hypot(d[v].x, d[v].y));
     }
-    for (int e = 0; e < m->elements; e++) {
-        const bbm_element *i = &m->element[e];
+    for (const bbm_element *i = m->element; i < m->element + m->elements; i++) {
         double longest = 0, change = 0;
         for (int a = i->first; a < i->first + i->n; a++) {
             const int b = bbm_next_vertex(i, a);

@@ -133,8 +133,7 @@ static void put_contacts(FILE *f, const write_results *w)
     const bbm_model *m = p->m;
 
     fprintf(f, "corner_block,edge_block,x,y,state,normal,shear,gap\n");
-    for (int k = 0; k < m->contacts; k++) {
-        const bbm_contact *c = &m->contact[k];
+    for (const bbm_contact *c = m->contact; c < m->contact + m->contacts; c++) {
         const bbm_edge *corner = &m->edge[c->corner];
         const bbm_vertex *P1 = &m->vertex[corner->a];
         const bbm_node *start = &m->node[P1->node];
