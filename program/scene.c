@@ -66,7 +66,7 @@ static int scale_of(int k) { return is_contact(k) ? LOCKED : is_stress(k) ? TENS
 /* Crosses have none. */
 static int has_colours(const char *name) { return name && strcmp(name, FIELD_PRINCIPAL) != 0; }
 
-typedef scene_point point;
+typedef bbm_point point;
 
 typedef struct {                        /* a block                                                */
     int first, n;                       /* its vertices: first, film.next[first], ..              */

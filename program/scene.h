@@ -22,10 +22,8 @@
 
 #include "../base/base.h"
 
-typedef struct { double x, y; } scene_point;
-
 typedef struct {                /* of a closed contact                                            */
-    scene_point at, force;      /* m, N     of the corner; on its block                           */
+    bbm_point at, force;        /* m, N     of the corner; on its block                           */
     double N;                   /* N        normal                                                */
     int    kind, block[2];      /* of its arrow; the corner's and the edge's                      */
 } scene_force;
@@ -38,7 +36,7 @@ typedef struct {                /* what was recorded at one time                
     int    forces, lines;       /* lines: loads of edges                                          */
     int    edges;               /* of the boundary: further ones open in a crack, later           */
     double (*load)[2];          /* N        [nodes]                                               */
-    scene_point *at;            /* m        [vertices]                                            */
+    bbm_point *at;              /* m        [vertices]                                            */
     int    *held;               /*          [vertices] BBM_X + BBM_Y, SCENE_MOVED; SCENE_GONE     */
     scene_force *force;         /*          [forces]                                              */
     double *value;              /*          [vertices] of the field; NaN: the block is gone       */
