@@ -2,8 +2,6 @@
  * reads cases/fem.csv and writes below out/. */
 #define _POSIX_C_SOURCE 200809L
 #include <errno.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "../program/field.h"
 #include "case.h"

@@ -12,8 +12,6 @@
  * `exp2` writes tables and out/exp2/; `exp2 converge` prints the errors on three meshes for four
  * values of alpha, solved on two levels where there is beyond/. All else is the paper's way, by the
  * core alone; the rows of the last table that say so are by as many quadrilaterals with beyond/. */
-#include <string.h>
-
 #include "case.h"
 #include "theory.h"
 

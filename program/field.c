@@ -1,6 +1,4 @@
 /* field.c - the quantities that tables and pictures show. */
-#include <string.h>
-
 #include "field.h"
 
 const field field_table[] = {

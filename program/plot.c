@@ -11,7 +11,6 @@
 #include "plot.h"
 
 #include <stdarg.h>
-#include <string.h>
 
 enum { TEXT = 14, TICK_TEXT = 48, LEVELS = 11 };    /* pixels; the last: wanted bands */
 

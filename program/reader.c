@@ -2,7 +2,6 @@
  * and options of a statement, and the nodes, elements, blocks and sets that they find. */
 #include <ctype.h>
 #include <errno.h>
-#include <float.h>
 #include <limits.h>
 #include <stdarg.h>
 

@@ -24,8 +24,6 @@
 #include "scene.h"
 
 #include <errno.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "field.h"
 #include "plot.h"
