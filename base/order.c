@@ -216,14 +216,13 @@ bbm_status bbm_matrix_add(bbm_matrix *K, int i, int j, double B[6][6])
  * contact, Eq. (5). Without memory the old one stays. */
 bbm_status bbm_lay_out_matrix(bbm_model *m)
 {
-    const int contacts = m->scratch->contacts;
-    const int most = contacts * (BBM_PARTS * (BBM_PARTS - 1) / 2) + m->gaps;
+    const int most = m->scratch->contacts * (BBM_PARTS * (BBM_PARTS - 1) / 2) + m->gaps;
     int (*link)[2] = calloc((size_t)most + 1, sizeof *link), n = 0;
     bbm_matrix *K;
 
     if (!link)
         return BBM_NO_MEMORY;
-    for (int k = 0; k < contacts; k++) {
+    for (int k = 0; k < m->scratch->contacts; k++) {
         const bbm_contact *c = &m->scratch->contact[k];
         for (int j = 1; j < c->parts; j++)
             for (int i = 0; i < j; i++)
