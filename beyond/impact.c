@@ -93,10 +93,8 @@ static bbm_account *account_of(const bbm_model *m, int i)
  * or stops: velocities change at once then. But an unbroken joint does not hit. */
 static int may_hit(const bbm_model *m, const bbm_contact *c)
 {
-    const int rests = c->trial.was_closed;
-
-    return !((rests || c->trial.touches) && bbm_is_strong(c))
-        && (!rests || account_of(m, c->element[0])->starts);
+    return !((c->trial.was_closed || c->trial.touches) && bbm_is_strong(c))
+        && (!c->trial.was_closed || account_of(m, c->element[0])->starts);
 }
 
 static int has_closed(const bbm_model *m, const bbm_contact *c)
@@ -378,20 +376,19 @@ static void find_energy_of_hits(const bbm_model *m, const bbm_model *step, const
  * component that settles and makes no energy keeps what it was asked for, whatever others do. */
 static bbm_status choose(bbm_model *m, bbm_model *step, bbm_model *end)
 {
-    bbm_account *of = m->beyond->account;
     const double most = m->beyond->restitution < 0 ? WORKED : GAIN;
     bbm_status status = BBM_OK;
     int again = 1;
 
     for (int c = 0; c < m->elements; c++)
-        of[c].asked = 1;
+        m->beyond->account[c].asked = 1;
     for (int tries = 1; again; tries++) {
         *end = bbm_end_of_step(step);
         status = solve(m, step, end);
         take(m, end);
         bbm_find_accounts(step, end);
         again = 0;
-        for (bbm_account *a = of; a < of + m->elements; a++) {
+        for (bbm_account *a = m->beyond->account; a < m->beyond->account + m->elements; a++) {
             const double less = a->asked - ldexp(a->gain / a->there, tries);
             const int fits = !a->unsettled && (a->jumps < 0 || a->gain <= most * a->there);
             if (fits || a->jumps == 0 || a->jumps == -2)
