@@ -155,23 +155,13 @@ bbm_status bbm_beyond_new(bbm_model **out)
     m->beyond->restitution = -1;
     m->par.round = -1;
     *m->hook = (bbm_hooks){
-        .release = release,
-        .check_polygon = bbm_check_polygon,
-        .check = check,
-        .begin = begin,
-        .listed = listed,
-        .find_pairs = bbm_catch_corners,
-        .strength = bbm_joint_strength,
-        .partner = bbm_find_partner,
-        .vectors = bbm_shared_vectors,
-        .friction = bbm_put_friction_in_K,
-        .load = bbm_gather_edge_loads,
-        .list_gaps = bbm_list_edge_gaps,
-        .motion = bbm_find_motion,
-        .assembled = assembled,
-        .renew = renew,
-        .move = move,
-        .failed = bbm_say_cracks,
+        .release = release, .check_polygon = bbm_check_polygon, .check = check,
+        .begin = begin, .motion = bbm_find_motion, .find_pairs = bbm_catch_corners,
+        .strength = bbm_joint_strength, .listed = listed,
+        .load = bbm_gather_edge_loads, .list_gaps = bbm_list_edge_gaps, .assembled = assembled,
+        .partner = bbm_find_partner, .vectors = bbm_shared_vectors,
+        .friction = bbm_put_friction_in_K, .renew = renew,
+        .move = move, .failed = bbm_say_cracks,
     };
     return BBM_OK;
 }
