@@ -112,8 +112,7 @@ static void find_directions(bbm_model *m)
 /* Direction and length of an edge at the start. */
 static bbm_direction starting(const bbm_model *m, int e)
 {
-    const bbm_node *a = &m->node[m->vertex[m->edge[e].a].node];
-    const bbm_node *b = &m->node[m->vertex[m->edge[e].b].node];
+    const bbm_node *a = &m->node[bbm_start_of(m, e)->node], *b = &m->node[bbm_end_of(m, e)->node];
     const double l = hypot(b->x - a->x, b->y - a->y);
 
     return (bbm_direction){ (b->x - a->x) / l, (b->y - a->y) / l, l };
