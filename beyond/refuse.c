@@ -51,13 +51,12 @@ bbm_status bbm_check_settings(bbm_model *m)
  * would close or open in the next pass does not either. */
 int bbm_contact_turns_over(const bbm_model *m)
 {
-    const bbm_contact *c = m->scratch->contact;
     int over = 0;
 
-    for (int k = 0; k < m->scratch->contacts && bbm_motion_of(m); k++)
-        for (int i = 0; i < c[k].parts; i++)
-            over |= c[k].state != BBM_OPEN && !(fabs(m->D[6 * c[k].element[i] + 2]) <= FAR_TURN);
-    return over;
+    for (const bbm_contact *c = m->scratch->contact; c < bbm_end_of_contacts(m); c++)
+        for (int i = 0; i < c->parts; i++)
+            over |= c->state != BBM_OPEN && !(fabs(m->D[6 * c->element[i] + 2]) <= FAR_TURN);
+    return over && bbm_motion_of(m);
 }
 
 /* How far the corner of a contact, as its edge sees it, is half-way off the middle of the straight
