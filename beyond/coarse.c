@@ -257,11 +257,10 @@ bbm_status bbm_matrix_coarse(bbm_matrix *K, int nodes, const int *first, const i
     K->ready = 0;
     if (first[K->n] == 0)
         return BBM_OK;
-    coarse_space *c = K->extra = calloc(1, sizeof *c);
+    coarse_space *c = calloc(1, sizeof *c);
     if (c && !list_nodes(K, nodes, first, node, middles, c) && !lay_out(K, place, c))
-        return BBM_OK;
+        return K->extra = c, BBM_OK;
     coarse_free(c);
-    K->extra = NULL;
     return BBM_NO_MEMORY;
 }
 
