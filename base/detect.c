@@ -590,11 +590,9 @@ bbm_status bbm_add_pair(bbm_model *m, int corner, int edge)
 static bbm_status find_pairs(bbm_model *m)
 {
     const double search = 9 * foresee(m);
-    bbm_status status = BBM_OK;
 
     m->scratch->pairs = m->info.candidates = 0;
-    if (m->hook->find_pairs)
-        status = m->hook->find_pairs(m, search);
+    bbm_status status = m->hook->find_pairs ? m->hook->find_pairs(m, search) : BBM_OK;
     for (int c = 0; c < m->edges && !m->hook->find_pairs; c++)
         for (int e = 0; e < m->edges && !status; e++)
             status = bbm_add_pair(m, c, e);
