@@ -198,11 +198,9 @@ int bbm_middle_is_off(const bbm_model *m)
 {
     int off = 0;
 
-    if (!bbm_motion_of(m))
-        return 0;
     for (int k = 0; k < m->gaps && !off; k++)
         off = is_off(m, m->gap[k].i) || (m->gap[k].j >= 0 && is_off(m, m->gap[k].j));
     for (int a = 0; a < 6 * m->elements && !off; a++)
         off = a % 6 >= 2 && m->load[a] != 0 && is_off(m, a / 6);
-    return off || bbm_contacts_are_off(m, SHARE);
+    return bbm_motion_of(m) && (off || bbm_contacts_are_off(m, SHARE));
 }
