@@ -122,11 +122,9 @@ bbm_status bbm_check_supports(bbm_model *m)
  * not held, by itself or through contacts. */
 bbm_status bbm_begin_statics(bbm_model *m)
 {
-    int same;
-
     m->h = INFINITY;
     const bbm_status status = bbm_begin_step(m);
-    return status ? status : bbm_detect(m, &same);
+    return status ? status : bbm_detect(m, &(int){ 0 });
 }
 
 /* ----------------------------------------------------------------------- who parts from whom */
