@@ -249,8 +249,7 @@ double bbm_depth_behind(const bbm_model *m, int corner, int edge, int *over)
  * corner pass. Else 0. */
 double bbm_depth_passed(const bbm_model *m, int corner, int edge)
 {
-    int over;
-    double depth = bbm_depth_behind(m, corner, edge, &over);
+    double depth = bbm_depth_behind(m, corner, edge, &(int){ 0 });
 
     for (int k = m->edge[corner].contact; k < m->contacts && m->contact[k].corner == corner; k++)
         depth = depth_between(m, &m->contact[k], 1, corner, edge) >= 0 ? 0 : depth;
@@ -287,10 +286,9 @@ bbm_status bbm_check_passing(bbm_model *m, const bbm_model *end)
     const int n = m->scratch->contacts;
 
     for (const bbm_contact *c = list; c < list + n; c++) {
-        int over;
         if (c->state != BBM_OPEN || c->d_n >= 0 || c->trial.was_closed || c->inside)
             continue;
-        const double depth = bbm_depth_behind(end, c->corner, c->edge, &over);
+        const double depth = bbm_depth_behind(end, c->corner, c->edge, &(int){ 0 });
         if (depth > DEEPER * fmax(0, depth_between(m, list, n, c->corner, c->edge)))
             return refuse(m, end, c->corner, c->edge, depth);
     }
