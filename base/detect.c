@@ -93,12 +93,6 @@ static double rounding_of(const bbm_model *m, int e)
 /* A vertex inside a straight side is no corner. */
 static int is_corner(const bbm_model *m, int c) { return m->edge[c].side == c; }
 
-/* Less than 180 degrees inside, or straight, where an edge arrives and another one leaves. */
-static int is_convex(const bbm_model *m, int arrives, int leaves)
-{
-    return cross(m->edge[arrives].along, m->edge[leaves].along) > -PARALLEL;
-}
-
 /* Directions and lengths of the present edges. */
 static void find_directions(bbm_model *m)
 {
@@ -817,7 +811,7 @@ static void continue_contact(const bbm_model *m, pair p, bbm_contact *c)
         const int Q = k / 2 ? m->edge[p.edge].after : p.edge;
         const int in = side_at(m, Q, 0, p.corner), out = side_at(m, Q, 1, p.corner);
         const double bend = cross(m->edge[in].along, m->edge[out].along);
-        const int convex = is_convex(m, in, out);
+        const int convex = bend > -PARALLEL;        /* or straight */
         const int meets = convex && (k % 2 == 0 || !are_parallel(m, p.edge, other.edge, 0));
         c->trial.entrance[k] = meets ? find_pair(m, other) : -1;
         c->trial.beyond_end &= Q != near

@@ -27,6 +27,7 @@ typedef struct {                /* surroundings.c, of a node                    
     double moved[2];            /* m        its wall point, since that step                     */
     double to[2];               /* m        where that is then                                  */
     double rate[2];             /* m/s      the same over the length of that step               */
+    double earlier[2];          /* m/s      the same of the step before                         */
     double part[2][2];          /* N        its force in the step in hand; in its jump, impact.c */
     int    held, caught;        /* directions in which the last step held it; and in which it   */
                                 /*          was free in a step before                           */
@@ -36,10 +37,11 @@ typedef struct {                /* energy.c: of an element, and of the component
     double springs[2];          /* J        what springs store that are counted at the element: */
                                 /*          at the start, and in the solution in hand           */
     double gain, there, work;   /* J        of a component, in a part of a step                 */
+    double rounding;            /* J        what of its gain may be that                        */
     double pressed;             /* N m      sum f.X of what presses on element i, see stability.c */
     double held[2];             /* J        work of the supports of element i, in a part of a   */
                                 /*          step, and in the jump at its end                    */
-    int    starts;              /* impact.c: a support of the component starts or stops         */
+    int    starts;              /* impact.c: a support of the component changes its velocity    */
     int    jumps;               /* impact.c: the component does; -1: it keeps no shape; -2: nor */
                                 /*          does it rub                                         */
     double asked;               /* -        of the energy that hits are to give back            */
@@ -55,7 +57,6 @@ typedef struct {                /* equilibrium.c: of a body, at its first elemen
     double force[2], moment;    /* N, N m   what is left: the sum, and about the centre         */
     double forces, rounding;    /* N        all of them without direction; of what is left      */
     double inside;              /* N        the forces inside it, without direction             */
-    int stiff;                  /* against its inertia                                          */
     double breach;              /* N        the most that a contact or bolt has against its law */
 } bbm_balance;
 

@@ -116,8 +116,8 @@ static void add_work(bbm_account *a, double work)
 }
 
 /* The accounts of the part of a step from m to `end`, one for each component of K: bodies that
- * touch, are near or are bonded. The force of a contact works along what rounding leaves of its
- * length, too: that is no gain and no loss. Where nothing has inertia, as in statics, and where
+ * touch, are near or are bonded. Rounding of positions moves bodies, and contacts work along what it
+ * leaves of their length: that is no gain and no loss. Where nothing has inertia, as in statics, and where
  * velocities are not kept, nothing is there. */
 void bbm_find_accounts(bbm_model *m, const bbm_model *end)
 {
@@ -128,28 +128,31 @@ void bbm_find_accounts(bbm_model *m, const bbm_model *end)
     bbm_note_springs(&now, 1);
     for (int c = 0; c < m->elements; c++)
         b->account[c].gain = b->account[c].there = b->account[c].work = b->account[c].asks
-                           = b->account[c].moves = 0;
+                           = b->account[c].rounding = b->account[c].moves = 0;
     for (int i = 0; i < m->elements; i++) {
         bbm_account *of = &b->account[m->K->component[i]];
         const double *F = &m->F[6 * i], *load = &m->load[6 * i];
         const double before = sum_of(energy_of(m, i, 0));
-        const double lever = hypot(m->element[i].x, m->element[i].y);
+        const double off = BBM_ROUNDING * hypot(m->element[i].x, m->element[i].y);
         of->moves |= bbm_has_inertia(m, i);
         of->gain += sum_of(energy_of(end, i, 1)) - before;
-        of->there += before + BBM_ROUNDING * (hypot(F[0], F[1]) + hypot(load[0], load[1])) * lever;
+        of->there += before + off * (hypot(F[0], F[1]) + hypot(load[0], load[1]));
+        of->rounding += 2 * bbm_mass_per_area(&end->element[i]) * end->element[i].A0
+                      * pow(off / m->h, 2);
         add_work(of, b->account[i].held[0] + b->account[i].held[1]);
         for (int a = 0; a < 6; a++)
             add_work(of, load[a] * m->D[6 * i + a]);
     }
     for (const bbm_contact *c = m->scratch->contact; c < bbm_end_of_contacts(m); c++) {
         const bbm_vertex *P = bbm_start_of(m, c->corner);
-        double *gain = &b->account[m->K->component[P->element]].gain;
-        const double rounding = BBM_ROUNDING * hypot(c->N, c->T) * hypot(P->x, P->y);
-        *gain = copysign(fmax(0, fabs(*gain) - rounding), *gain);
+        bbm_account *of = &b->account[m->K->component[P->element]];
+        of->rounding += BBM_ROUNDING * hypot(c->N, c->T) * hypot(P->x, P->y);
     }
-    for (int c = 0; c < m->elements; c++)
-        if (!b->account[c].moves || m->par.velocity_factor < 1)
-            b->account[c].gain = b->account[c].there = 0;
+    for (bbm_account *a = b->account; a < b->account + m->elements; a++) {
+        a->gain = copysign(fmax(0, fabs(a->gain) - a->rounding), a->gain);
+        if (!a->moves || m->par.velocity_factor < 1)
+            a->gain = a->there = 0;
+    }
 }
 
 /* The energy that it takes to give a normal spring that share of what it may get in a step. One

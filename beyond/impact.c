@@ -34,8 +34,8 @@
  * any motion. Where a corner that slides jams it may not settle; then it is done without friction.
  *
  * A support has moved by r1 h1 in this step and by r0 h0 in the one before. At the end of the step
- * its velocity is r1 + (r1 - r0) h1/(h0 + h1), right to second order; if it stands, 0; if it has
- * begun to move, r1.
+ * its velocity is r1 + (r1 - r0) h1/(h0 + h1), right to second order. But where it changes at once,
+ * as where it starts or stops, it is r1, and what lies on the support is hit.
  */
 #include "beyond.h"
 
@@ -45,12 +45,17 @@
  *               hits give back is right to 1e-3. A hundred times as much, and rounding in bonds
  *               costs momentum
  * EARLY [-]     of a step: what would hit so soon hits with the others
+ * EVEN [-]      of the change of a velocity, the change in the step before, or it changes at once: at
+ *               the start of an even one it is a half
+ * SLIGHT [-]    of a velocity, what it may change in a step in any case
  * GAIN [-]      energy that a jump may make, against what was there: rounding
  * WORKED [-]    the same where no hit asks for anything: the work of supports that move is right to
  *               second order in the step */
 #define STIFF 1e5
 #define RIGID 1e4
 #define EARLY 1e-2
+#define EVEN 0.3
+#define SLIGHT 1e-2
 #define GAIN 1e-9
 #define WORKED 1e-7
 
@@ -89,8 +94,24 @@ static bbm_account *account_of(const bbm_model *m, int i)
     return &m->beyond->account[m->K->component[i]];
 }
 
-/* What closes in the step hits. What was closed hits once more if a support of its component starts
- * or stops: velocities change at once then. But an unbroken joint does not hit. */
+/* Whether the velocity of a support changes from the step before to this one as it did before, or
+ * hardly; else it changes at once. */
+static int changes_evenly(const bbm_model *m, int node)
+{
+    const bbm_support *s = &m->beyond->support[node];
+    double before = 0, now = 0, least = 0;
+
+    for (int a = 0; a < 2; a++) {
+        const double r = m->beyond->share * s->moved[a] / m->h, change = r - s->rate[a];
+        before += change * (s->rate[a] - s->earlier[a]);
+        now += change * change;
+        least += pow(SLIGHT * r, 2);
+    }
+    return before >= EVEN * now || now <= least;
+}
+
+/* What closes in the step hits. What was closed hits once more if the velocity of a support of its
+ * component changes at once. But an unbroken joint does not hit. */
 static int may_hit(const bbm_model *m, const bbm_contact *c)
 {
     return !((c->trial.was_closed || c->trial.touches) && bbm_is_strong(c))
@@ -102,15 +123,13 @@ static int has_closed(const bbm_model *m, const bbm_contact *c)
     return c->state != BBM_OPEN && may_hit(m, c);
 }
 
-/* The velocity of a support at the end of the step. One that stands has none, and one that stood
- * before moves evenly. */
+/* The velocity of a support at the end of the step. */
 static double support_velocity(const bbm_model *m, int node, int a)
 {
     const bbm_support *s = &m->beyond->support[node];
     const double r = m->beyond->share * s->moved[a] / m->h;
 
-    return r == 0 || s->rate[a] == 0 || m->beyond->h_before == 0 ? r
-         : r + (r - s->rate[a]) * m->h / (m->h + m->beyond->h_before);
+    return changes_evenly(m, node) ? r + (r - s->rate[a]) * m->h / (m->h + m->beyond->h_before) : r;
 }
 
 /* Marks the components with a hit that has a restitution, also with one that an earlier pass had,
@@ -119,11 +138,8 @@ static void find_hits(const bbm_model *m)
 {
     for (int i = 0; i < m->elements; i++)
         m->beyond->account[i].mass = m->beyond->account[i].jumps = m->beyond->account[i].starts = 0;
-    for (int v = 0; v < 2 * m->vertices; v++) {
-        const bbm_support *s = &m->beyond->support[m->vertex[v / 2].node];
-        account_of(m, m->vertex[v / 2].element)->starts |= (s->rate[v % 2] == 0)
-                                                        != (s->moved[v % 2] == 0);
-    }
+    for (const bbm_vertex *v = m->vertex; v < m->vertex + m->vertices; v++)
+        account_of(m, v->element)->starts |= !changes_evenly(m, v->node);
     for (const bbm_contact *c = m->scratch->contact; c < bbm_end_of_contacts(m); c++)
         account_of(m, m->edge[c->corner].element)->jumps |= m->beyond->restitution >= 0
             && may_hit(m, c) && (c->state != BBM_OPEN || c->trial.closings > 0);
@@ -245,7 +261,7 @@ static void start_contacts(bbm_model *m, const bbm_model *step)
         bbm_contact_vectors(m, c, 0, v);
         bbm_contact_vectors(m, c, 1, from_end);
         c->anchor = v[1].d / (v[1].d - from_end[1].d);      /* where d_s is 0: it is linear     */
-        const int again = c->hit == 1 && !c->trial.was_closed;
+        const int again = c->hit == 1 && !of->starts;
         const double back = has_closed(m, c) && !again ? E * sqrt(of->asked) : 0;
         const double asked = E < 0 ? m->h * normal_velocity(m, c, m->element)
                                    : back * fmax(0, -approach(step, c));
