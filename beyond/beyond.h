@@ -57,6 +57,7 @@ typedef struct {                /* equilibrium.c: of a body, at its first elemen
     double force[2], moment;    /* N, N m   what is left: the sum, and about the centre         */
     double forces, rounding;    /* N        all of them without direction; of what is left      */
     double inside;              /* N        the forces inside it, without direction             */
+    int stiff;                  /*          against its inertia                                 */
     double breach;              /* N        the most that a contact or bolt has against its law */
 } bbm_balance;
 
