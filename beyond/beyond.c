@@ -93,9 +93,12 @@ static bbm_status listed(bbm_model *m)
 
 /* After a pass: if it turns a block too far, no further one will do; when all has settled,
  * multipliers take over what the springs carry; in the end, and where K is new anyway, T of the
- * step is renewed; then joints and bonds that bear too much break. */
+ * step is renewed; then joints and bonds that bear too much break. What was lost in K is added to
+ * that, and changes contacts at most. */
 static bbm_pass renew(bbm_model *m, bbm_pass next)
 {
+    if (m->beyond->refines)
+        return next;
     if (bbm_contact_turns_over(m))
         return BBM_PASS_GIVE_UP;
     if (next == BBM_PASS_DONE && (next = bbm_take_over(m)) != BBM_PASS_DONE)

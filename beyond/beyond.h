@@ -135,7 +135,7 @@ struct bbm_beyond {
                                 /*          the second half is scratch                          */
     bbm_balance *balance;       /* [elements] equilibrium.c: of the solution in hand            */
     double *lacking;            /* [12 elements] N, m: F that is left, and the D that it asks for */
-    int refined;                /*          how often the solution in hand was made better      */
+    int refines;                /*          that is being added                                 */
     double lack;                /* -        the most that a body has left, without inertia      */
     double parted;              /* -        how far blocks went in steps from rest, in sizes    */
     double overload;            /* -        crack.c: load of a bond over its strength, least 1  */

@@ -219,7 +219,7 @@ bbm_pass bbm_refine(bbm_model *m)
     double *r = m->beyond->lacking, *d = r + 6 * m->elements;
     bbm_pcg_info info;
 
-    if (!begin_bodies(m) || m->par.velocity_factor < 1 || m->beyond->refined++ > 0)
+    if (!begin_bodies(m) || m->par.velocity_factor < 1)
         return BBM_PASS_DONE;
     add_up(m);
     for (int i = 0; i < m->elements; i++) {
@@ -233,7 +233,10 @@ bbm_pass bbm_refine(bbm_model *m)
         return BBM_PASS_DONE;
     for (int k = 0; k < 6 * m->elements; k++)
         m->D[k] += d[k];
-    return bbm_open_close(m);
+    m->beyond->refines = 1;
+    const bbm_pass next = bbm_open_close(m);
+    m->beyond->refines = 0;
+    return next;
 }
 
 /* Refuses a solution in which the forces on a body do not balance, or in statics a contact breaks

@@ -31,7 +31,7 @@ void bbm_start_multipliers(bbm_model *m)
 {
     for (int k = 0; k < 2 * m->gaps; k++)
         m->gap[k / 2].own.f[k % 2] = isinf(m->par.dt) ? m->gap[k / 2].own.f_before[k % 2] : 0;
-    m->beyond->round = m->beyond->refined = 0;
+    m->beyond->round = 0;
 }
 
 /* The contacts have settled: f += W d, in F, too, as often as was asked for. Returns which solution

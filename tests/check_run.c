@@ -1,6 +1,7 @@
 /* check_run.c - ./bbm once, on a model with every statement but `static`: it reads each of them,
- * and writes every file with its columns and rows. All else that it does is in check_model.c,
- * check_statements.c, check_files.c and check_pictures.c. */
+ * and writes every file with its columns and rows; and on models of which it is known what came of
+ * them before. All else that it does is in check_model.c, check_statements.c, check_files.c and
+ * check_pictures.c. */
 #define _POSIX_C_SOURCE 200809L
 #include <stdio.h>
 #include <stdlib.h>
@@ -83,6 +84,14 @@ START_TEST(it_leaves_no_other_file)
 }
 END_TEST
 
+/* It says nothing of right or wrong, see kept.sh. */
+START_TEST(what_came_of_many_models_is_what_came_of_them_before)
+{
+    ck_assert_msg(shell("mkdir -p out && sh tests/kept.sh %s/bbm > out/kept.said 2>&1", BUILD) == 0,
+                  "%s", slurp("out/kept.said"));
+}
+END_TEST
+
 Suite *run_suite(void)
 {
     Suite *s = suite_create("run");
@@ -92,5 +101,8 @@ Suite *run_suite(void)
     tcase_add_loop_test(t, a_model_with_every_statement_leaves_every_file_with_its_rows, 0,
                         COUNT(written));
     tcase_add_test(t, it_leaves_no_other_file);
+    TCase *kept = new_case(s, "kept");
+    tcase_set_timeout(kept, 120);           /* s: the models take three, more with sanitizers */
+    tcase_add_test(kept, what_came_of_many_models_is_what_came_of_them_before);
     return s;
 }
