@@ -694,6 +694,27 @@ START_TEST(a_support_that_starts_hits_what_has_lain_on_it)
 }
 END_TEST
 
+/* A lid comes down on a block five times, by 1e-5 m in 20 steps, and rests as long after each. Two springs at either side,
+ * and the block: 1/(1/2e10 + 1/1e9 + 1/2e10). Each start takes less than a step of it. */
+START_TEST(what_is_squeezed_keeps_its_force_where_the_lid_starts_and_stops)
+{
+    bbm_model *m = hard_blocks(_i / 2.0, 0);
+    double force = 0;
+
+    m->material[ROCK].E = 1e9;
+    m->material[ROCK].nu = m->par.gravity[1] = 0;
+    m->par.dt = 1e-3;
+    set_springs(m, 1e10, 4e9);
+    add_rectangle(m, 0, BASE, (rectangle){ -2, 1, 4, 1, .fixed = 1 });
+    add_rectangle(m, 1, BASE, (rectangle){ -2, -1, 4, 1, .fixed = 1 });
+    add_rectangle(m, 2, ROCK, (rectangle){ 0, 0, 1, 1, .fixed = 0 });
+    ck_ok(bbm_prepare(m), m);
+    for (int step = 1; step <= 200; step++)
+        force = pull_to(m, 1, -1e-5 * (step / 40 + fmin(1, step % 40 / 20.0)));
+    ck_near(force, -5e-5 / 1.1e-9, 5e-5 / 1.1e-9, 1.0 / 20);
+}
+END_TEST
+
 /* A square hits a table that gives way no more, with nothing else about or with a block that falls far away. */
 START_TEST(a_far_block_changes_no_hit)
 {
@@ -783,6 +804,7 @@ Suite *impact_suite(void)
         { a_stack_that_slid_to_a_stop_with_a_restitution_sinks_no_further, 3 },
         { a_square_that_turns_over_a_rim_in_long_steps_makes_no_energy, 1 },
         { a_support_that_starts_hits_what_has_lain_on_it, 24 },
+        { what_is_squeezed_keeps_its_force_where_the_lid_starts_and_stops, 3 },
         { a_far_block_changes_no_hit, 1 },
         { a_block_that_comes_to_rest_gains_no_energy, 1 },
         { a_hit_that_does_not_settle_takes_nothing_from_another_one, 1 },
