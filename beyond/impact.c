@@ -17,13 +17,13 @@
  * the jump. What the hit gives back depends neither on dt nor on the mesh then, and leaves no body
  * vibrating. A held point counts from h/2 w, w the velocity of its support, and so does what is
  * held all round. A closed contact counts from h/2 v, v the velocity that is asked for: 0; or, if
- * it has closed in this step, -E times the normal velocity with which it came; or, without a
- * restitution, the one that it has. One that has not been outside since its last hit is asked for
- * 0: a block that comes to rest would hop from corner to corner, and sink in each hop. The
- * open-close iteration finds which contacts stay closed and which slide. It judges the forces of
- * the step and of the jump together, for they act in the same time: F takes back the contact forces
- * of the step, and the jump finds them anew. In between two bodies all this is push and pull, so
- * that momentum stays.
+ * it is hit, -E times the normal velocity with which it came; or, without a restitution, the one
+ * that it has. One that has closed in this step is hit, but not again before it has been outside: a
+ * block that comes to rest would hop from corner to corner, and sink in each hop. The open-close
+ * iteration finds which contacts stay closed and which slide. It judges the forces of the step and
+ * of the jump together, for they act in the same time: F takes back the contact forces of the step,
+ * and the jump finds them anew. In between two bodies all this is push and pull, so that momentum
+ * stays.
  *
  * With a restitution a contact that is hit, or that the jump opens, has had its impulse: its spring
  * bears no more than before the step, and nothing if it opens. Without one it keeps what it bears,
