@@ -26,17 +26,17 @@
  * stays.
  *
  * With a restitution a contact that is hit, or that the jump opens, has had its impulse: its spring
- * bears no more than before the step, and nothing if it opens. Without one it keeps what it bears,
- * or a light block that moves to and fro under a slow press would never be pressed. The law of
- * Newton (-E times the velocity at the points that touch) may make energy where several points hit
- * together or rub, and a little by the order of the step. Such a jump is done again with less asked
- * of the contacts, in the end with 0 for all that is asked of contacts, elements and bonds: (M +
- * h^2/2 K) V'' = M V' takes energy from any motion. Where a corner that slides jams it may not
- * settle; then it is done without friction.
+ * bears what it did before the step, or nothing where it opens and no support changes its velocity.
+ * Without one it keeps what it bears, or a light block that moves to and fro under a slow press
+ * would never be pressed. The law of Newton (-E times the velocity at the points that touch) may
+ * make energy where several points hit together or rub, and a little by the order of the step. Such
+ * a jump is done again with less asked of the contacts, in the end with 0 for all that is asked of
+ * contacts, elements and bonds: (M + h^2/2 K) V'' = M V' takes energy from any motion. Where a
+ * corner that slides jams it may not settle; then it is done without friction.
  *
  * A support has moved by r1 h1 in this step and by r0 h0 in the one before. At the end of the step
  * its velocity is r1 + (r1 - r0) h1/(h0 + h1), right to second order. But where it changes at once,
- * as where it starts or stops, it is r1, and what lies on the support is hit.
+ * as where it starts or stops, it is r1, and what lies on the support is struck.
  */
 #include "beyond.h"
 
@@ -46,8 +46,8 @@
  *               hits give back is right to 1e-3. A hundred times as much, and rounding in bonds
  *               costs momentum
  * EARLY [-]     of a step: what would hit so soon hits with the others
- * EVEN [-]      of the change of a velocity, the change in the step before, or it changes at once: at
- *               the start of an even one it is a half
+ * EVEN [-]      of the change of a velocity, the change in the step before, or it changes at once:
+ *               at the start of an even one it is a half
  * SLIGHT [-]    of a velocity, what it may change in a step in any case
  * GAIN [-]      energy that a jump may make, against what was there: rounding
  * WORKED [-]    the same where no hit asks for anything: the work of supports that move is right to
@@ -111,12 +111,13 @@ static int changes_evenly(const bbm_model *m, int node)
     return before >= EVEN * now || now <= least;
 }
 
-/* What closes in the step hits. What was closed hits once more if the velocity of a support of its
- * component changes at once. But an unbroken joint does not hit. */
+/* What closes in the step hits, and what was closed if its component is struck: the velocity of a
+ * support has changed at once, and by more than a contact makes good by what it bears in the step.
+ * But an unbroken joint does not hit. */
 static int may_hit(const bbm_model *m, const bbm_contact *c)
 {
     return !((c->trial.was_closed || c->trial.touches) && bbm_is_strong(c))
-        && (!c->trial.was_closed || account_of(m, c->element[0])->starts);
+        && (!c->trial.was_closed || account_of(m, c->element[0])->struck > 1);
 }
 
 static int has_closed(const bbm_model *m, const bbm_contact *c)
@@ -138,9 +139,16 @@ static double support_velocity(const bbm_model *m, int node, int a)
 static void find_hits(const bbm_model *m)
 {
     for (int i = 0; i < m->elements; i++)
-        m->beyond->account[i].mass = m->beyond->account[i].jumps = m->beyond->account[i].starts = 0;
+        m->beyond->account[i].mass = m->beyond->account[i].jumps = m->beyond->account[i].struck = 0;
     for (const bbm_vertex *v = m->vertex; v < m->vertex + m->vertices; v++)
-        account_of(m, v->element)->starts |= !changes_evenly(m, v->node);
+        account_of(m, v->element)->struck |= !changes_evenly(m, v->node);
+    for (const bbm_contact *c = m->scratch->contact; c < bbm_end_of_contacts(m); c++) {
+        const double mobile = mobility(m, c->element[0]) + mobility(m, c->element[1]);
+        const double bears = fmax(0, bbm_normal_force(m, c->trial.d_n0 - c->rest));
+        bbm_account *of = account_of(m, c->element[0]);
+        if (of->struck && -2 / m->h * approach(m, c) > m->h * bears * mobile)
+            of->struck = 2;
+    }
     for (const bbm_contact *c = m->scratch->contact; c < bbm_end_of_contacts(m); c++)
         account_of(m, m->edge[c->corner].element)->jumps |= m->beyond->restitution >= 0
             && may_hit(m, c) && (c->state != BBM_OPEN || c->trial.closings > 0);
@@ -262,7 +270,7 @@ static void start_contacts(bbm_model *m, const bbm_model *step)
         bbm_contact_vectors(m, c, 0, v);
         bbm_contact_vectors(m, c, 1, from_end);
         c->anchor = v[1].d / (v[1].d - from_end[1].d);      /* where d_s is 0: it is linear     */
-        const int again = c->hit == 1 && !of->starts;
+        const int again = c->hit == 1 && of->struck <= 1;
         const double back = has_closed(m, c) && !again ? E * sqrt(of->asked) : 0;
         const double asked = E < 0 ? m->h * normal_velocity(m, c, m->element)
                                    : back * fmax(0, -approach(step, c));
@@ -350,7 +358,7 @@ static void find_work(bbm_model *m)
 }
 
 /* The elements at the end of the step take their velocities, the contacts what they were. But with
- * a restitution the spring of one that has had its impulse bears what it did before the step. */
+ * a restitution the spring of one that has had its impulse bears what it did before, or nothing. */
 static void take(bbm_model *m, bbm_model *end)
 {
     find_work(m);
@@ -363,9 +371,10 @@ static void take(bbm_model *m, bbm_model *end)
         *c = m->beyond->jump_of[k];
         if (!jumped || m->beyond->restitution < 0 || !(opens || has_closed(m, c)))
             continue;
+        const int bears = !opens || account_of(m, c->element[0])->struck > 1;
         c->hit = 1;
         c->area = 0;
-        c->N = opens ? 0 : fmax(0, bbm_normal_force(end, c->trial.d_n0 - c->rest));
+        c->N = bears ? fmax(0, bbm_normal_force(end, c->trial.d_n0 - c->rest)) : 0;
         c->rest = bbm_rest_of(end, c->d_n, c->N);
         c->T = c->trial.time_left = 0;
     }

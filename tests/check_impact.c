@@ -686,16 +686,16 @@ START_TEST(a_support_that_starts_hits_what_has_lain_on_it)
             ck_ok(bbm_move_support(m, n, -way * s, way * c), m);
         run_steps(m, 1);
     }
-    for (int i = 1; i < m->elements; i++) {                 /* RIGID, and the moment in the first step */
+    for (int i = 1; i < m->elements; i++) {     /* RIGID, the moment in the first step, the weight on its springs */
         const double *V = m->element[i].V, v = E > 0 ? 1 + E - 9.5 * dt * g : 3;
-        ck_near(V[1] * c - V[0] * s, v, 1, 1e-3 + dt * g);
+        ck_near(V[1] * c - V[0] * s, v, 1, 1e-3 + 1.5 * dt * g);
         ck_near(V[2], 0, 1, 1e-3);
     }
 }
 END_TEST
 
 /* A lid comes down on a block five times, by 1e-5 m in 20 steps, and rests as long after each. Two springs at either side,
- * and the block: 1/(1/2e10 + 1/1e9 + 1/2e10). Each start takes less than a step of it. */
+ * and the block: 1/(1/2e10 + 1/1e9 + 1/2e10). */
 START_TEST(what_is_squeezed_keeps_its_force_where_the_lid_starts_and_stops)
 {
     bbm_model *m = hard_blocks(_i / 2.0, 0);
@@ -711,7 +711,29 @@ START_TEST(what_is_squeezed_keeps_its_force_where_the_lid_starts_and_stops)
     ck_ok(bbm_prepare(m), m);
     for (int step = 1; step <= 200; step++)
         force = pull_to(m, 1, -1e-5 * (step / 40 + fmin(1, step % 40 / 20.0)));
-    ck_near(force, -5e-5 / 1.1e-9, 5e-5 / 1.1e-9, 1.0 / 20);
+    ck_near(force, -5e-5 / 1.1e-9, 5e-5 / 1.1e-9, 1e-3);                     /* the lid gives way, too */
+}
+END_TEST
+
+/* Two blocks lie on a table that moves up and down, in forty stages of 20 steps with as many of rest. They lie as deep as
+ * their weight asks for; what starts unloaded each time would lie ten times as deep. */
+START_TEST(what_lies_on_a_table_sinks_in_no_start)
+{
+    bbm_model *m = hard_blocks(_i / 2.0, 30);
+    double way = 0;
+
+    m->par.dt = 1e-3;
+    set_springs(m, 1e9, 4e8);
+    add_rectangle(m, 0, BASE, (rectangle){ -5, -1, 10, 1, .fixed = 1 });
+    for (int k = 0; k < 2; k++)
+        add_rectangle(m, 1 + k, ROCK, (rectangle){ 0, k, 1, 1, .fixed = 0 });
+    ck_ok(bbm_prepare(m), m);
+    for (int step = 0; step < 1600; step++) {
+        way += step % 40 < 20 ? (step / 40 % 2 ? -1e-7 : 1e-7) : 0;
+        (void)pull_to(m, 1, way);
+    }
+    const double weight = 2 * DENSITY * GRAVITY / 2;                        /* at either corner */
+    ck_near(m->vertex[4].v, -weight / 1e9, weight / 1e9, 0.1);      /* the first steps, from unloaded springs, take 7 % */
 }
 END_TEST
 
@@ -805,6 +827,7 @@ Suite *impact_suite(void)
         { a_square_that_turns_over_a_rim_in_long_steps_makes_no_energy, 1 },
         { a_support_that_starts_hits_what_has_lain_on_it, 24 },
         { what_is_squeezed_keeps_its_force_where_the_lid_starts_and_stops, 3 },
+        { what_lies_on_a_table_sinks_in_no_start, 3 },
         { a_far_block_changes_no_hit, 1 },
         { a_block_that_comes_to_rest_gains_no_energy, 1 },
         { a_hit_that_does_not_settle_takes_nothing_from_another_one, 1 },
