@@ -199,8 +199,7 @@ void bbm_contact_vectors(const bbm_model *m, const bbm_contact *c, double anchor
  * (69). Deviation: d_n counts from `rest`, which is 0 in the paper; see bbm_contact. */
 void bbm_assemble_contacts(bbm_model *m)
 {
-    for (int k = 0; k < m->scratch->contacts; k++) {
-        bbm_contact *c = &m->scratch->contact[k];
+    for (bbm_contact *c = m->scratch->contact; c < bbm_end_of_contacts(m); c++) {
         const double p_s = c->state == BBM_LOCK ? c->trial.time_left * m->par.p_s : 0;
         bbm_spring v[2];
         if (c->state == BBM_OPEN)

@@ -321,6 +321,12 @@ static inline double bbm_rest_of(const bbm_model *m, double d_n, double N)
     return bbm_motion_of(m) ? fmin(0, d_n + N / m->par.p_n) : 0;
 }
 
+/* The end of the list of contacts of the step in hand. */
+static inline bbm_contact *bbm_end_of_contacts(const bbm_model *m)
+{
+    return m->scratch->contact + m->scratch->contacts;
+}
+
 /* Whether a contact is of an unbroken joint with cohesion or tensile strength. */
 static inline int bbm_is_strong(const bbm_contact *c)
 {

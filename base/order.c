@@ -222,12 +222,10 @@ bbm_status bbm_lay_out_matrix(bbm_model *m)
 
     if (!link)
         return BBM_NO_MEMORY;
-    for (int k = 0; k < m->scratch->contacts; k++) {
-        const bbm_contact *c = &m->scratch->contact[k];
+    for (const bbm_contact *c = m->scratch->contact; c < bbm_end_of_contacts(m); c++)
         for (int j = 1; j < c->parts; j++)
             for (int i = 0; i < j; i++)
                 memcpy(link[n++], (int [2]){ c->element[i], c->element[j] }, sizeof *link);
-    }
     for (int g = 0; g < m->gaps; g++)
         if (m->gap[g].j >= 0)
             memcpy(link[n++], (int [2]){ m->gap[g].i, m->gap[g].j }, sizeof *link);

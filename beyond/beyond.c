@@ -93,8 +93,8 @@ static bbm_status listed(bbm_model *m)
 
 /* After a pass: if it turns a block too far, no further one will do; when all has settled,
  * multipliers take over what the springs carry; in the end, and where K is new anyway, T of the
- * step is renewed; then joints and bonds that bear too much break. What was lost in K is added to
- * that, and changes contacts at most. */
+ * step is renewed; then joints and bonds that bear too much break; at last D gets what K has lost,
+ * and after that contacts alone are judged. */
 static bbm_pass renew(bbm_model *m, bbm_pass next)
 {
     if (m->beyond->refines)
@@ -158,13 +158,23 @@ bbm_status bbm_beyond_new(bbm_model **out)
     m->beyond->restitution = -1;
     m->par.round = -1;
     *m->hook = (bbm_hooks){
-        .release = release, .check_polygon = bbm_check_polygon, .check = check,
-        .begin = begin, .motion = bbm_find_motion, .find_pairs = bbm_catch_corners,
-        .strength = bbm_joint_strength, .listed = listed,
-        .load = bbm_gather_edge_loads, .list_gaps = bbm_list_edge_gaps, .assembled = assembled,
-        .partner = bbm_find_partner, .vectors = bbm_shared_vectors,
-        .friction = bbm_put_friction_in_K, .renew = renew,
-        .move = move, .failed = bbm_say_cracks,
+        .release = release,
+        .check_polygon = bbm_check_polygon,
+        .check = check,
+        .begin = begin,
+        .motion = bbm_find_motion,
+        .find_pairs = bbm_catch_corners,
+        .strength = bbm_joint_strength,
+        .listed = listed,
+        .load = bbm_gather_edge_loads,
+        .list_gaps = bbm_list_edge_gaps,
+        .assembled = assembled,
+        .partner = bbm_find_partner,
+        .vectors = bbm_shared_vectors,
+        .friction = bbm_put_friction_in_K,
+        .renew = renew,
+        .move = move,
+        .failed = bbm_say_cracks,
     };
     return BBM_OK;
 }

@@ -27,7 +27,7 @@ typedef struct {                /* surroundings.c, of a node                    
     double moved[2];            /* m        its wall point, since that step                     */
     double to[2];               /* m        where that is then                                  */
     double rate[2];             /* m/s      the same over the length of that step               */
-    double earlier[2];          /* m/s      the same of the step before                         */
+    double earlier[2];          /* m/s      the same of the step, or part of one, before        */
     double part[2][2];          /* N        its force in the step in hand; in its jump, impact.c */
     int    held, caught;        /* directions in which the last step held it; and in which it   */
                                 /*          was free in a step before                           */
@@ -37,7 +37,7 @@ typedef struct {                /* energy.c: of an element, and of the component
     double springs[2];          /* J        what springs store that are counted at the element: */
                                 /*          at the start, and in the solution in hand           */
     double gain, there, work;   /* J        of a component, in a part of a step                 */
-    double rounding;            /* J        what of its gain may be that                        */
+    double rounding;            /* J        what rounding of positions may make of its gain     */
     double pressed;             /* N m      sum f.X of what presses on element i, see stability.c */
     double held[2];             /* J        work of the supports of element i, in a part of a   */
                                 /*          step, and in the jump at its end                    */
@@ -58,7 +58,7 @@ typedef struct {                /* equilibrium.c: of a body, at its first elemen
     double force[2], moment;    /* N, N m   what is left: the sum, and about the centre         */
     double forces, rounding;    /* N        all of them without direction; of what is left      */
     double inside;              /* N        the forces inside it, without direction             */
-    int stiff;                  /*          against its inertia                                 */
+    int    stiff;               /*          so much that its inertia loses digits in K          */
     double breach;              /* N        the most that a contact or bolt has against its law */
 } bbm_balance;
 
@@ -135,8 +135,9 @@ struct bbm_beyond {
     int *body;                  /* [2 elements] the first element of its body, what bonds join; */
                                 /*          the second half is scratch                          */
     bbm_balance *balance;       /* [elements] equilibrium.c: of the solution in hand            */
-    double *lacking;            /* [12 elements] N, m: F that is left, and the D that it asks for */
-    int refines;                /*          that is being added                                 */
+    double *lacking;            /* [12 elements] equilibrium.c, N, m: the F that is left of the */
+                                /*          balance, and the D that it asks for                 */
+    int refines;                /*          D has just got that, and contacts are judged        */
     double lack;                /* -        the most that a body has left, without inertia      */
     double parted;              /* -        how far blocks went in steps from rest, in sizes    */
     double overload;            /* -        crack.c: load of a bond over its strength, least 1  */
@@ -147,12 +148,6 @@ struct bbm_beyond {
     double hit[2];              /* J        impact.c: of contacts that closed, before and after */
     double made;                /* -        what the step in hand has, as in `gain`             */
 };
-
-/* The end of the list of contacts of the step in hand. */
-static inline const bbm_contact *bbm_end_of_contacts(const bbm_model *m)
-{
-    return m->scratch->contact + m->scratch->contacts;
-}
 
 bbm_status bbm_beyond_new(bbm_model **m);               /* bbm_model_new, with all of it        */
 
@@ -281,7 +276,7 @@ bbm_status bbm_try_otherwise(bbm_model *m, bbm_status s);
  * moment; nobody knows a limit load better. */
 #define BBM_BALANCED 1e-6
 void       bbm_contact_forces(const bbm_model *m, const bbm_contact *c, double F[BBM_PARTS][6]);
-bbm_pass   bbm_refine(bbm_model *m);
+bbm_pass   bbm_refine(bbm_model *m);                    /* D, where K has lost inertia          */
 bbm_status bbm_check_equilibrium(bbm_model *m);         /* of the solution in hand              */
 
 /* stability.c */

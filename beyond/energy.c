@@ -84,8 +84,7 @@ void bbm_note_springs(bbm_model *m, int when)
         for (int r = 0; r < 2; r++)
             a[g->i].springs[when] += g->d0[r] / 2
                     * (g->own.f[r] + g->W[r][0] * g->d0[0] + g->W[r][1] * g->d0[1]);
-    for (int k = 0; k < m->scratch->contacts; k++) {
-        const bbm_contact *c = &m->scratch->contact[k];
+    for (const bbm_contact *c = m->scratch->contact; c < bbm_end_of_contacts(m); c++) {
         const double T = bbm_shear_force(c);
         a[m->edge[c->corner].element].springs[when] += c->state == BBM_OPEN ? 0
             : bbm_normal_energy(m, c->N) + T * T / (2 * m->par.p_s);
@@ -126,9 +125,8 @@ void bbm_find_accounts(bbm_model *m, const bbm_model *end)
 
     bbm_list_gaps(&now);
     bbm_note_springs(&now, 1);
-    for (int c = 0; c < m->elements; c++)
-        b->account[c].gain = b->account[c].there = b->account[c].work = b->account[c].asks
-                           = b->account[c].rounding = b->account[c].moves = 0;
+    for (bbm_account *a = b->account; a < b->account + m->elements; a++)
+        a->gain = a->there = a->work = a->asks = a->rounding = a->moves = 0;
     for (int i = 0; i < m->elements; i++) {
         bbm_account *of = &b->account[m->K->component[i]];
         const double *F = &m->F[6 * i], *load = &m->load[6 * i];

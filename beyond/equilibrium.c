@@ -35,11 +35,9 @@
 
 /* Centre and size of each body, the side of a square of its area. No forces. A body is noted at its
  * first element, which begins it before the others add to it. A stiff one has lost digits of its
- * inertia, which stands beside stiffness in K; returns whether there is one. */
-static int begin_bodies(bbm_model *m)
+ * inertia, which stands beside stiffness in K. */
+static void begin_bodies(bbm_model *m)
 {
-    int any = 0;
-
     for (int i = 0; i < m->elements; i++) {
         m->beyond->balance[i] = (bbm_balance){ .inside = m->K->forces[m->K->component[i]] };
         bbm_balance *b = &m->beyond->balance[m->beyond->body[i]];
@@ -52,10 +50,8 @@ static int begin_bodies(bbm_model *m)
                    * (fabs(e->stress[0]) + fabs(e->stress[1]) + fabs(e->stress[2]));
         b->stiff |= bbm_has_inertia(m, i) && m->K->D[m->K->place[i]][0][0]
                     > STIFF * 2 * bbm_mass_per_area(e) * e->A / (m->h * m->h);
-        any |= b->stiff;
         b->rounding = UNLOADED * m->beyond->bond_tension * b->size * e->material.thickness;
     }
-    return any;
 }
 
 /* A force on element i that should not be, or is missing. */
@@ -217,19 +213,19 @@ static void add_up(bbm_model *m)
 bbm_pass bbm_refine(bbm_model *m)
 {
     double *r = m->beyond->lacking, *d = r + 6 * m->elements;
-    bbm_pcg_info info;
+    int stiff = 0;
 
-    if (!begin_bodies(m) || m->par.velocity_factor < 1)
-        return BBM_PASS_DONE;
     add_up(m);
     for (int i = 0; i < m->elements; i++) {
         const bbm_balance *b = &m->beyond->balance[m->beyond->body[i]];
+        stiff |= b->stiff;
         const double share = b->stiff ? m->element[i].A / b->area : 0;
         r[6 * i] = share * b->force[0];
         r[6 * i + 1] = share * b->force[1];
         r[6 * i + 2] = share * b->moment;
     }
-    if (bbm_solve(m->K, r, d, &m->par.pcg, &info))
+    if (!stiff || m->par.velocity_factor < 1
+        || bbm_solve(m->K, r, d, &m->par.pcg, &(bbm_pcg_info){ 0 }))
         return BBM_PASS_DONE;
     for (int k = 0; k < 6 * m->elements; k++)
         m->D[k] += d[k];

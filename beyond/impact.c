@@ -26,13 +26,12 @@
  * stays.
  *
  * With a restitution a contact that is hit, or that the jump opens, has had its impulse: its spring
- * bears what it did before the step, or nothing where it opens and no support changes its velocity.
- * Without one it keeps what it bears, or a light block that moves to and fro under a slow press
- * would never be pressed. The law of Newton (-E times the velocity at the points that touch) may
- * make energy where several points hit together or rub, and a little by the order of the step. Such
- * a jump is done again with less asked of the contacts, in the end with 0 for all that is asked of
- * contacts, elements and bonds: (M + h^2/2 K) V'' = M V' takes energy from any motion. Where a
- * corner that slides jams it may not settle; then it is done without friction.
+ * starts unloaded. Without one it keeps what it bears, or a light block that moves to and fro under
+ * a slow press would never be pressed. The law of Newton (-E times the velocity at the points that
+ * touch) may make energy where several points hit together or rub, and a little by the order of the
+ * step. Such a jump is done again with less asked of the contacts, in the end with 0 for all that
+ * is asked of contacts, elements and bonds: (M + h^2/2 K) V'' = M V' takes energy from any motion.
+ * Where a corner that slides jams it may not settle; then it is done without friction.
  *
  * A support has moved by r1 h1 in this step and by r0 h0 in the one before. At the end of the step
  * its velocity is r1 + (r1 - r0) h1/(h0 + h1), right to second order. But where it changes at once,
@@ -358,7 +357,7 @@ static void find_work(bbm_model *m)
 }
 
 /* The elements at the end of the step take their velocities, the contacts what they were. But with
- * a restitution the spring of one that has had its impulse bears what it did before, or nothing. */
+ * a restitution the spring of one that has had its impulse starts unloaded. */
 static void take(bbm_model *m, bbm_model *end)
 {
     find_work(m);
@@ -371,12 +370,10 @@ static void take(bbm_model *m, bbm_model *end)
         *c = m->beyond->jump_of[k];
         if (!jumped || m->beyond->restitution < 0 || !(opens || has_closed(m, c)))
             continue;
-        const int bears = !opens || account_of(m, c->element[0])->struck > 1;
         c->hit = 1;
         c->area = 0;
-        c->N = bears ? fmax(0, bbm_normal_force(end, c->trial.d_n0 - c->rest)) : 0;
-        c->rest = bbm_rest_of(end, c->d_n, c->N);
-        c->T = c->trial.time_left = 0;
+        c->rest = fmin(0, c->d_n);
+        c->N = c->T = c->trial.time_left = 0;
     }
 }
 

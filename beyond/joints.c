@@ -111,14 +111,13 @@ void bbm_joint_strength(const bbm_model *m, bbm_contact *c)
  * for another pass if there are any. */
 bbm_pass bbm_break_joints(bbm_model *m)
 {
-    bbm_contact_scratch *w = m->scratch;
     bbm_pass next = BBM_PASS_DONE;
 
-    for (bbm_contact *c = w->contact; c < w->contact + w->contacts && isinf(m->par.dt); c++)
-        if (c->state == BBM_SLIDE && c->strength.shear > 0
+    for (bbm_contact *c = m->scratch->contact; c < bbm_end_of_contacts(m); c++)
+        if (isinf(m->par.dt) && c->state == BBM_SLIDE && c->strength.shear > 0
             && bbm_shear_strength(&c->strength, c->N) > 0) {
             c->area = c->strength.shear = c->strength.tension = 0;
-            w->passes = w->one_until = m->beyond->round = 0;
+            m->scratch->passes = m->scratch->one_until = m->beyond->round = 0;
             next = BBM_PASS_AGAIN;
         }
     return next;

@@ -85,14 +85,13 @@ static double curve_of(const bbm_model *m, const bbm_contact *c)
  * is false. */
 bbm_status bbm_check_solution(bbm_model *m)
 {
-    const bbm_contact *c = m->scratch->contact, *end = c + m->scratch->contacts;
     const int linear = m->par.steps == 1 && m->scratch->contacts == 0;
     const double most = !bbm_is_static(m) ? FAR_STRAIN : linear ? LINEAR : 1;
     const double turn = bbm_is_static(m) ? INFINITY : FAR_TURN;
     int far = -1;
 
-    for (; c < end && far < 0 && bbm_motion_of(m); c++)
-        if (c->state == BBM_OPEN && curve_of(m, c) > CURVE * bbm_size_at(m, c))
+    for (const bbm_contact *c = m->scratch->contact; c < bbm_end_of_contacts(m) && far < 0; c++)
+        if (bbm_motion_of(m) && c->state == BBM_OPEN && curve_of(m, c) > CURVE * bbm_size_at(m, c))
             far = c->element[fabs(m->D[6 * c->element[0] + 2])
                              <= fabs(m->D[6 * c->element[1] + 2])];
     for (int i = 0; i < m->elements; i++)

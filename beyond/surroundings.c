@@ -313,7 +313,7 @@ void bbm_stop_supports(bbm_model *m)
     for (int n = 0; n < m->nodes; n++)
         for (int a = 0; a < 2; a++) {
             bbm_support *s = &b->support[n];
-            s->earlier[a] = b->left == 1 ? s->rate[a] : s->earlier[a];
+            s->earlier[a] = s->rate[a];
             s->rate[a] = bbm_is_static(m) ? 0 : b->share * s->moved[a] / m->h;
             s->moved[a] -= b->share * s->moved[a];
             s->force[a] = s->part[0][a] + s->part[1][a];
