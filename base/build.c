@@ -322,7 +322,8 @@ static bbm_status allocate(bbm_model *m)
 {
     m->F = calloc(18 * (size_t)m->elements, sizeof *m->F);
     m->gap = calloc(bbm_most_gaps(m), sizeof *m->gap);
-    if (!m->F || !m->gap || bbm_detect_new(m))
+    m->contact = malloc(sizeof *m->contact);            /* there is none as yet                 */
+    if (!m->F || !m->gap || !m->contact || bbm_detect_new(m))
         return BBM_NO_MEMORY;
     m->D = m->F + 6 * (size_t)m->elements;
     m->load = m->D + 6 * (size_t)m->elements;

@@ -172,7 +172,8 @@ bbm_status bbm_detect_new(bbm_model *m)
         return BBM_NO_MEMORY;
     w->reach = calloc((size_t)m->elements, sizeof *w->reach);
     w->pair = calloc((size_t)m->edges, sizeof *w->pair);
-    if (!w->reach || !w->pair)
+    w->contact = malloc(sizeof *w->contact);            /* a list without contacts is not NULL  */
+    if (!w->reach || !w->pair || !w->contact)
         return BBM_NO_MEMORY;
     number_blocks(m);
     for (int e = 0; e < m->edges; e++) {
