@@ -123,9 +123,8 @@ void bbm_elastic_matrix(const bbm_material *m, double E[3][3])
 
 /* Pi_e = t A (1/2 e.E e + e.stress0), Eq. (6), (7), (8), (9)
  *     ->   K_ii += t A E, F_i -= t A stress0, Eq. (10).
- * In the paper A is the present area. Deviation: with bbm_motion the A of K_ii is that of the
- * start. The forces of Hooke's law have a potential then: a body that is strained and comes back
- * makes no energy. */
+ * In the paper A is the present area. Deviation: with bbm_motion the A of K_ii is A0. The forces of
+ * Hooke's law have a potential then: a body that is strained and comes back makes no energy. */
 void bbm_elastic_submatrix(const bbm_element *e, bbm_submatrix *s)
 {
     const double t = e->material.thickness, tA = t * (e->middle ? e->A0 : e->A);
@@ -231,7 +230,7 @@ void bbm_bonding_gap(const bbm_element *i, const bbm_vertex *P, const bbm_elemen
 /* Pi_b = k/2 d.d, or 1/2 d.W d with W = k [1 0; 0 1]
  *     ->   K_ii += Ti^T W Ti,  K_ij -= Ti^T W Tj,  K_jj += Tj^T W Tj,   Eq. (27),
  *          F_i -= Ti^T W d0,  F_j += Tj^T W d0,                         Eq. (28).
- * With a hook W is any symmetric matrix, and the energy has f.d besides: W d0 + f for W d0. */
+ * With a hook W is any symmetric matrix, and a force f is added: W d0 + f in place of W d0. */
 void bbm_bonding_submatrices(const bbm_gap *g, bbm_submatrices *s)
 {
     for (int r = 0; r < 2; r++) {

@@ -86,9 +86,9 @@ typedef struct {                /* of one element, on one node                  
     int    node, element;
     double x, y;                /* m        present position from model.origin                  */
     double u, v;                /* m        displacement since the start                        */
-    int    edge;                /* of the boundary, that starts here; by bbm_prepare. Where an  */
-                                /*          internal edge starts: -1 - w, w the vertex of the   */
-                                /*          other element at this place                         */
+    int    edge;                /* the boundary edge that starts here, by bbm_prepare; for an   */
+                                /*          internal edge -1 - w, w the vertex of the other     */
+                                /*          element at this place                               */
 } bbm_vertex;
 
 typedef struct {                /* triangle, quadrilateral, simple polygon, or a whole block    */
@@ -113,7 +113,8 @@ typedef struct {                /* triangle, quadrilateral, simple polygon, or a
     const bbm_middle *middle;   /* NULL: T is (2); else the T of a hook                         */
 } bbm_element;
 
-/* A load that varies from place to place. The function writes f(x, y) [N/m or N/m^2] into f. */
+/* A load that varies from place to place. The function writes f(x, y) [N/m or N/m^2] into f. x, y:
+ * as of nodes for a line load, from model.origin for a volume force. */
 typedef void bbm_field(double x, double y, const void *context, double f[2]);
 
 /* What one element adds to K and F. */
@@ -153,8 +154,9 @@ typedef struct {
     double gravity[2];          /* m/s^2    */
     double p_n, p_s;            /* N/m      normal and shear stiffness of a contact             */
     double friction;            /* degree   friction angle                                      */
-    double round;               /* m        of corners: a lower ledge is no obstacle; 0: sharp; */
-                                /*          -1: 2e-3 of the shorter side                        */
+    double round;               /* m        of corners, at most a quarter of the shorter side:  */
+                                /*          a lower ledge is no obstacle; 0: sharp; -1: 2e-3 of */
+                                /*          the shorter side                                    */
     int    faces;               /* 0: a block touches others with its corners alone; 1: also    */
                                 /* with the grid points inside its straight sides, so that a    */
                                 /* deformable block lies on its whole side                      */
@@ -207,7 +209,7 @@ struct bbm_model {
     bbm_info info;
     bbm_status status;          /* the first error while building                               */
     char message[300];          /* what the last error was about                                */
-    int  blamed[2];             /* elements that it names; -1: none                             */
+    int  blamed[2];             /* elements that it names                                       */
     /* --- called before each solution, to see K and F; a result other than 0 stops the run --- */
     int (*monitor)(const bbm_model *m, void *context);
     void *monitor_context;
@@ -234,7 +236,7 @@ void        bbm_displacement(const bbm_element *e, const double D[6], double x, 
                              double u[2]);                  /* (1)                              */
 double      bbm_mises(const double stress[3], double szz);
 const char *bbm_status_text(bbm_status s);
-const char *bbm_message(const bbm_model *m);                /* the last error; success leaves it */
+const char *bbm_message(const bbm_model *m);                /* about the last error             */
 
 /* --------------------------------------------------------------------------- 2. build a model
  * Once a bbm_add or bbm_fix has failed, the later calls do nothing and return its status. So a
@@ -256,8 +258,8 @@ bbm_status bbm_add_varying_line_load(bbm_model *m, int node1, int node2, bbm_fie
 bbm_status bbm_prepare(bbm_model *m);                       /* checks, finds the edges (2.2)    */
 
 /* ---------------------------------------------------------------- 3. single formulas, each alone
- * A submatrix function adds to what it is given. The mass of an element counts with its A0, which
- * the caller sets. For bonds and contacts see base/base.h. */
+ * A submatrix function adds to what it is given. Mass and (4) take A0, which the caller sets. For
+ * bonds and contacts see base/base.h. */
 
 /* 2.1, 2.2 */
 void   bbm_element_geometry(bbm_element *e, const bbm_vertex vertex[]);         /* n vertices   */

@@ -15,13 +15,12 @@
  *
  * N = -p_n d_n is the normal force. T = p_s d_s is what the shear spring carries, or would carry. s
  * is the sign of the slip. c and tension are the cohesion and the tensile strength of an unbroken
- * joint, in the paper 0. A is the contact's share of its area.
+ * joint, in the paper 0. A is the contact's share of the joint's area.
  *
  * d_s counts from the anchor P0, a point of the edge's material. P0 is where P1 stood at the start
  * of the step in which it hit. In LOCK it stays. In SLIDE it is moved at the end of each step, so
  * that p_s d_s is the friction force. In the next step only new slip raises s T above the bound.
  * When the slip turns round, s T falls below it, and the contact locks with the force that it had.
- * A contact that closes with more shear than friction can hold begins with SLIDE.
  *
  * base/detect.c finds which corners may touch which edges. base/open_close.c changes the states by
  * this table until all contacts fit the solution.
@@ -55,7 +54,8 @@ void bbm_normal_vectors(const bbm_touch *c, bbm_spring *n)
 
 /* The normal law. N = -p_n d, positive in compression, Eq. (65), d the distance from `rest`; its
  * stiffness in K, -dN/dd; and what it stores, Pi_n of Eq. (51). Whoever changes it changes its
- * inverse, bbm_rest_of of base.h, too. The table of states needs an N that falls as d grows. */
+ * inverse, too: bbm_rest_of of base.h, and where crack.c sets `rest`. The table of states needs an
+ * N that falls as d grows. */
 double bbm_normal_force(const bbm_model *m, double d) { return -m->par.p_n * d; }
 
 double bbm_normal_stiffness(const bbm_model *m) { return m->par.p_n; }
@@ -63,7 +63,7 @@ double bbm_normal_stiffness(const bbm_model *m) { return m->par.p_n; }
 double bbm_normal_energy(const bbm_model *m, double N) { return N * N / (2 * m->par.p_n); }
 
 /* A spring p, normal or shear, over d = d0 + e.D_i + g.D_j: Pi = p/2 d^2, Eq. (51)   ->
- * Eq. (58), (58a-f), (63): K_ii += p e e^T, K_ij += p e g^T, K_jj += p g g^T. v and w: e or g. */
+ * Eq. (58a-f), (63): K_ii += p e e^T, K_ij += p e g^T, K_jj += p g g^T. v and w: e or g. */
 void bbm_spring_submatrix(double p, const double v[6], const double w[6], double K[6][6])
 {
     for (int a = 0; a < 6; a++)
@@ -86,7 +86,7 @@ void bbm_force_submatrix(double f, const double v[6], double F[6])
  * the edge's material, Eq. (53). The points move as in Eq. (48), (49), (50), and as there
  *     d_s = S1 + e.D_i + g.D_j, Eq. (60), (61), (62), (64), (67), (68),
  *     m = (P3 - P2)/l,   S1 = (P1 - P0).m,   e = T_i^T(P1) m,   g = -T_j^T(P0) m.
- * Deviation: with the T and the points of a hook g has what (60) drops, the turning of m, as well:
+ * Deviation: with the T and the points of a hook g has what (61) drops, the turning of m, as well:
  * (T_j(P3) - T_j(P2))^T (P1 - P0)/l. Without it friction does not keep angular momentum. */
 void bbm_shear_vectors(const bbm_touch *c, double anchor, bbm_spring *s)
 {
@@ -143,8 +143,9 @@ double bbm_shear_force(const bbm_contact *c)
 
 /* The figure on top as a table: the state that follows from N and T. N of an open contact is what
  * it would be if it were closed. Forces that differ by less than the tolerance agree. A closed
- * contact opens without a tolerance: it would be a hidden tensile strength. How one closes, and a
- * locked one in tension: close_contact and find_next_state in base/open_close.c. */
+ * contact opens without a tolerance: it would be a hidden tensile strength. Without friction and
+ * cohesion what is closed slides. How one closes, and a locked one in tension: close_contact and
+ * find_next_state in base/open_close.c. */
 bbm_contact_state bbm_next_state(const bbm_contact *c, double N, double tolerance)
 {
     const double strength = bbm_shear_strength(&c->strength, N);
@@ -195,8 +196,9 @@ void bbm_contact_vectors(const bbm_model *m, const bbm_contact *c, double anchor
 }
 
 /* Adds the closed contacts to K and F: K_ij for each two elements, and each with itself. LOCK: the
- * normal and the shear spring, Eq. (58) and (63). SLIDE: the normal spring and friction, Eq. (65),
- * (69). Deviation: d_n counts from `rest`, which is 0 in the paper; see bbm_contact. */
+ * normal and the shear spring, Eq. (58) and (63), this one times `time_left`, in the paper 1.
+ * SLIDE: the normal spring and friction, Eq. (65), (69). Deviation: d_n counts from `rest`, which
+ * is 0 in the paper; see bbm_contact. */
 void bbm_assemble_contacts(bbm_model *m)
 {
     for (bbm_contact *c = m->scratch->contact; c < bbm_end_of_contacts(m); c++) {

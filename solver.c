@@ -165,13 +165,13 @@ void bbm_precondition(const bbm_matrix *K, const double *r, double *u)
     sweep_backward(K, u);
 }
 
-/* Counts an iteration. Refuses it if the limit is reached, or if p.K p is not positive: then K is
- * not positive definite, or p.K p is NaN. */
-bbm_status bbm_count_iteration(double pKp, const bbm_pcg *pcg, bbm_pcg_info *info)
+/* Counts an iteration. Refuses it if the limit is reached, or if p.K p, or r.z of a hook's method,
+ * is not positive: then K is not positive definite, or it is NaN. */
+bbm_status bbm_count_iteration(double positive, const bbm_pcg *pcg, bbm_pcg_info *info)
 {
     if (info->iterations == pcg->iterations)
         return BBM_NOT_CONVERGED;
-    if (!(pKp > 0))
+    if (!(positive > 0))
         return BBM_NOT_POSITIVE_DEFINITE;
     info->iterations++;
     return BBM_OK;

@@ -60,7 +60,7 @@ struct bbm_gap {                /* of a spring: d = d0 + T_i D_i - T_j D_j, Eq. 
 struct bbm_line_load {          /* a load along a boundary edge                                 */
     int    node[2];             /* its ends                                                     */
     int    constant;            /* 1: the load is f[0] all along, Eq. (43)                      */
-    double f[BBM_GAUSS][2];     /* N/m      0: at the Gauss points from node[0] on, Eq. (42)    */
+    double f[BBM_GAUSS][2];     /* N/m      else at the Gauss points from node[0] on, Eq. (42)  */
     int    a, b;                /* the vertices at its ends, by bbm_prepare                     */
 };
 
@@ -83,8 +83,8 @@ struct bbm_edge {               /* a boundary edge from vertex a to b, its eleme
     int    first;               /* an element that stands for the block, the same on all edges  */
     int    before, after;       /* its neighbours along the boundary                            */
     int    next;                /* another edge of the block, in a ring of all                  */
-    int    meets[2];            /* of its start: another block covers the edge that ends or     */
-                                /*          starts there, its corner not farther than rounding  */
+    int    meets[2];            /* at its start a corner of another block, within rounding,     */
+                                /*          covers the edge that ends [0] or starts [1] there   */
     int    slides;              /* of its start: a block that lies flush slides along it in     */
                                 /*          the step by more than contacts are deep             */
     int    joined[2];           /* of its start: the edges of blocks that lie flush and cover   */
@@ -393,7 +393,7 @@ double     bbm_dot_rows(const bbm_matrix *K, const double *x, const double *y); 
 void       bbm_combine(const bbm_matrix *K, const double *x, double c, const double *y, double *z);
 int        bbm_invert(double w, double D[6][6], double B[6][6]);                /* (D/w)^-1     */
 void       bbm_precondition(const bbm_matrix *K, const double *r, double *u);   /* u = M^-1 r   */
-bbm_status bbm_count_iteration(double pKp, const bbm_pcg *pcg, bbm_pcg_info *info);
+bbm_status bbm_count_iteration(double positive, const bbm_pcg *pcg, bbm_pcg_info *info);
 bbm_status bbm_iterate(bbm_matrix *K, const bbm_pcg *pcg, bbm_pcg_info *info);  /* x = K^-1 r   */
 
 /* solve.c: K D = F. Rows that no pairs connect, however indirectly, are solved apart: neither

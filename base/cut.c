@@ -1,10 +1,8 @@
 /* cut.c - what stands around the step of Fig. 8: messages, what must hold before it, what went
  * wrong in it, and when it is cut in two and tried again.
  *
- * A step whose equations or contacts find no end, or that a hook finds wrong, is done again with
- * half of dt, down to dt/4096, as long as that takes no more than SOLUTIONS solutions. The nominal
- * step is completed in parts, which grow again. A static step has no parts; a hook may know another
- * way.
+ * The parts of a step that was cut grow again, and together take no more than SOLUTIONS solutions.
+ * A static step has no parts; a hook may know another way.
  */
 #include <stdarg.h>
 #include <stdio.h>

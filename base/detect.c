@@ -1,6 +1,6 @@
 /* detect.c - detection: which corner may touch which edge, what a contact keeps from the last step,
- * and where a corner comes in. It knows positions, edges and what was closed; what contacts carry
- * is in contact.c.
+ * and where a corner comes in. It knows positions, edges and closed contacts, and hands on their
+ * forces.
  *
  * Each corner is compared with each boundary edge, or a hook knows which are near it. `corner` c is
  * the vertex that starts boundary edge c, so that (corner, edge) are two indices of edges: the
@@ -27,9 +27,7 @@
  * Two corners of A and B that lie flush are none for a third block: the boundary of the one goes on
  * as that of the other, and the faces between them are covered.
  *
- * Two lines that coincide are one contact, of P on Q's edge or of Q on P's. That one stays whose
- * projection is on its edge. At a tie it is the one that it was before, or else the one whose edge
- * goes before the other: by size, then as gravity points, the same in any order of the blocks.
+ * Two lines that coincide are one contact, of P on Q's edge or of Q on P's.
  */
 #include "base.h"
 
@@ -331,8 +329,8 @@ static double rounding_between(const bbm_model *m, int P, int e)
 }
 
 /* How deep a corner may lie behind an edge near its end and still be at the surface: by the
- * rounding and the depth of contacts. So deep it is where it comes past the end, or has done so in
- * the step before, which may have been longer. */
+ * rounding and the depth of contacts. This holds where it may pass the end in this step, or may
+ * have in the step before. */
 static double surface_depth(const bbm_model *m, int c, int e)
 {
     const double deep = contact_depth(m, c, end_near(m, c, e)) + rounding_between(m, c, e);
@@ -927,9 +925,9 @@ static int is_on_edge(const bbm_model *m, const bbm_contact *c, double t, double
 }
 
 /* Whether P may come in over its line, if it crosses it: as its sides lie at the end of the step,
- * and, where two elements meet in P, as they would had it come no deeper than the line. Not from
- * behind the edge, and not where its projection is beyond the end of the edge at the start of the
- * step, as it crosses the line and at the end of the step, unless the contact was closed. */
+ * and, where two elements meet in P, without the bend of its penetration. Not from behind the edge,
+ * and not where its projection is beyond the end of the edge at the start of the step, as it
+ * crosses the line and at the end of the step, unless the contact was closed. */
 static int admits(const bbm_model *m, const bbm_contact *c)
 {
     const int Q = end_near(m, c->corner, c->edge);

@@ -5,9 +5,7 @@
  * with the friction of the last N until both agree; a hook may need fewer solutions. Only then look
  * at the states: all that do not fit their forces change, and a new solution follows. If a set of
  * states comes back, the iteration would cycle. Then, for as many passes as there have been, only
- * the contact that fits worst changes. A contact that closes with more shear than friction can
- * hold, or for the second time in the step, starts as SLIDE. Without friction and cohesion a
- * contact never stays locked.
+ * the contact that fits worst changes.
  *
  * Nothing moves before all contacts fit. If they never do, the step is done again as if it had not
  * been tried: in halves, or in statics in another way.
@@ -18,7 +16,8 @@
  *             their component of K is solved: the solver is not more exact
  * DIGITS [-]  rounding of a position after some sums, against the position. What a spring makes of
  *             it counts as no force
- * FIT    [-]  the same where states have to fit: friction is right to 0.01 degrees */
+ * FIT    [-]  of a force, the most that rounding may add to its tolerance: friction is right to 0.01
+ *             degrees */
 #define AGREE 1e-9
 #define DIGITS 1e-15
 #define FIT 2e-4
@@ -135,8 +134,7 @@ static void measure_closed(const bbm_model *m, bbm_contact *c)
 /* The force tolerance of a contact: a share of its own force, or of the force on a body by which
  * its component is solved. The error of every N is small against this force alone. What the spring
  * makes of the rounding of positions is added, all of it where that force would move an element by
- * no more than rounding in a step, so that all forces are rounding. But nothing in statics, whose
- * one solution has none. */
+ * no more than rounding in a step, so that all forces are rounding. In statics nothing is added. */
 static void find_tolerance(const bbm_model *m, bbm_contact *c)
 {
     const bbm_vertex *P2 = bbm_end_of(m, c->edge), *P3 = bbm_start_of(m, c->edge);
@@ -288,9 +286,10 @@ bbm_pass bbm_open_close(bbm_model *m)
 
 /* ------------------------------------------------------------------------------ end of the step */
 
-/* Ends the step: its contacts become those of the model, which has moved. The anchor of a sliding
- * contact follows, so that a shear spring would carry the friction force. It has slid by as much as
- * the anchor moved. A joint that has opened, or slid against a shear strength, is broken. */
+/* Ends the step: its contacts become those of the model, which has moved. The anchor of a contact
+ * that slides, or has closed in the step, is placed where the whole shear spring carries T. One
+ * that slides has slid by as much as its anchor moved. A joint that has opened, or slid against a
+ * shear strength, is broken. */
 void bbm_store_contacts(bbm_model *m)
 {
     m->info.penetration = m->info.contacts = 0;

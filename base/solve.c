@@ -2,9 +2,7 @@
  *
  * Components. Elements that bonds and contacts join, directly or through others, make a component
  * of K. Each component is solved by itself: its rows are `from` to `to` - 1, it has its own scale
- * of F and its own end of the iteration, and no other component changes a bit of its x. If all were
- * one iteration, the forces of a stone that flies past would set the scale, and the small forces in
- * a pile at rest would stay unsolved.
+ * of F and its own end of the iteration, and no other component changes a bit of its x.
  *
  * What a tolerance can mean. The r of the iteration becomes as small as one likes. But F - K x does
  * not become smaller than about eps |K| |x|, eps = 2e-16; in a stiff body that is 1e-10 |F| or

@@ -338,8 +338,7 @@ double bbm_mises(const double s[3], double szz)
                 + szz * (szz - s[0] - s[1]));
 }
 
-/* Displacement and nodal stress: the mean over the elements that meet at a node, those of one block
- * or of all (-1). */
+/* Displacement and nodal stress. */
 bbm_status bbm_nodal_result(const bbm_model *m, int node, int block, bbm_result *r)
 {
     int count = 0;

@@ -11,8 +11,8 @@
  * elements lack: the bond is rigid in its middle and bends as the material would. With M = 0 a grid
  * of rectangles w_i x h_j would be loose: if element i, j turns about its centre by (-1)^(i+j)
  * c/(w_i h_j), all middles stay together. A fixed edge is a bond with the wall, whose mirror image
- * bends alike. A triangle does not bend: it is to a quadrilateral what the wall is. A fixed node is
- * the mean of its corners, as it is for loads.
+ * bends alike. A triangle does not bend: beside it a quadrilateral bends as at the wall. A fixed
+ * node is the mean of its corners, as it is for loads.
  */
 #include "beyond.h"
 

@@ -55,8 +55,7 @@ static bbm_status check(bbm_model *m)
     return bbm_check_overlap(m);
 }
 
-/* The base accelerates, and the model is at rest in it: gravity less that, in the middle of the
- * step, whose acceleration is even. */
+/* Seen from the base, gravity is less by the base's acceleration in the middle of the step. */
 static bbm_status begin(bbm_model *m)
 {
     bbm_beyond *b = m->beyond;
@@ -77,8 +76,8 @@ static bbm_status begin(bbm_model *m)
 
 /* A step of these contacts may begin: with T of its middle, if no corner has passed into a block,
  * and in statics if all bodies are held. A new K has no room for the terms of friction yet. What is
- * held all round has neither weight nor inertia in (5). Deviation: under these the springs of (29)
- * give way, by more the larger it is; the core keeps to them. */
+ * held all round has neither weight nor inertia in (5). Deviation: in the core it has both, and the
+ * springs of (29) give way, more for a larger element. */
 static bbm_status listed(bbm_model *m)
 {
     if (!m->K->term && (bbm_lay_out_coarse(m) || bbm_lay_out_sliding(m)))

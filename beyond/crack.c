@@ -85,7 +85,7 @@ static double stiffness(const bbm_model *m, const bbm_bond *b)
 }
 
 /* c of both ends of a bond together, N/m. */
-static double softness(const bbm_model *m, const bbm_bond *b, int tooth)
+static double soft_stiffness(const bbm_model *m, const bbm_bond *b, int tooth)
 {
     const double T = m->beyond->bond_tension, w_c = m->beyond->bond_energy / (T * taken(BROKEN));
     double n[2];
@@ -112,7 +112,7 @@ int bbm_list_crack(bbm_model *m, int b)
     if (bbm_tooth_of(m, b) == 0)
         return 0;
     const bbm_crack *c = &m->beyond->crack[b];
-    const double soft = softness(m, of, c->tooth) / 2;
+    const double soft = soft_stiffness(m, of, c->tooth) / 2;
     bbm_list_bond(m, of);
     find_normal(m, of, 1, n);
     find_normal(m, of, !i->middle, N);
@@ -212,7 +212,7 @@ static void damage(bbm_model *m, int b)
     }
     do
         c->tooth = m->beyond->bond_energy > 0 ? c->tooth + 1 : BROKEN;
-    while (softness(m, of, c->tooth) >= 2 * stiffness(m, of));
+    while (soft_stiffness(m, of, c->tooth) >= 2 * stiffness(m, of));
 }
 
 /* Lets those ends of cracks push that are closed, and no others; whether there were others. One

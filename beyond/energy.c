@@ -115,9 +115,9 @@ static void add_work(bbm_account *a, double work)
 }
 
 /* The accounts of the part of a step from m to `end`, one for each component of K: bodies that
- * touch, are near or are bonded. Rounding of positions moves bodies, and contacts work along what
- * it leaves of their length: that is no gain and no loss. Where nothing has inertia, as in statics,
- * and where velocities are not kept, nothing is there. */
+ * touch, are near or are bonded. What rounding of positions makes of kinetic energy, and of the
+ * work of contacts, is no gain and no loss. Where nothing has inertia, as in statics, and where
+ * velocities are not kept, nothing is there. */
 void bbm_find_accounts(bbm_model *m, const bbm_model *end)
 {
     const bbm_beyond *b = m->beyond;

@@ -22,9 +22,9 @@
 /* IN_MOTION [-]  what may be left in dynamics: a step makes no more of its energy, see energy.c
  * NO_FORCE [N]   in any unit: the solver has such a force in place of 0
  * STIFF [-]      what K has on its diagonal against inertia: a step loses 1e-16 times as much of it
- * INSIDE [-]     of the force by which the component is solved, of the forces inside a body, and of
- *                what would bring a support to its place at once: the solution is no more exact,
- *                and a body may bear nothing else
+ * INSIDE [-]     what may be left of the force by which the component is solved, of the forces
+ *                inside a body, and of what would bring a support to its place at once: the
+ *                solution is no more exact
  * UNLOADED [-]   of what its bonds can carry: a piece that has broken off and bears less bears
  *                nothing. The solver knows the forces from before the break to 1e-10 */
 #define IN_MOTION 1e-5
@@ -207,9 +207,9 @@ static void add_up(bbm_model *m)
     }
 }
 
-/* What K has lost of the inertia of a body that keeps its velocity is missing in the balance of its
- * forces, which is exact, for those of its bonds cancel. What is left of the balance, spread over
- * the elements of the body, asks K for the rest of D, and contacts are judged anew. */
+/* K has lost digits of the inertia of a stiff body. The balance of its forces has not, for those of
+ * its bonds cancel. What is left of the balance, spread over the elements of the body, is solved
+ * for the rest of D, and contacts are judged anew. */
 bbm_pass bbm_refine(bbm_model *m)
 {
     double *r = m->beyond->lacking, *d = r + 6 * m->elements;

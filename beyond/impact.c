@@ -45,8 +45,8 @@
  *               hits give back is right to 1e-3. A hundred times as much, and rounding in bonds
  *               costs momentum
  * EARLY [-]     of a step: what would hit so soon hits with the others
- * EVEN [-]      of the change of a velocity, the change in the step before, or it changes at once:
- *               at the start of an even one it is a half
+ * EVEN [-]      the least that the change in the step before is of a change that is even: where an
+ *               even one starts it is a half
  * SLIGHT [-]    of a velocity, what it may change in a step in any case
  * GAIN [-]      energy that a jump may make, against what was there: rounding
  * WORKED [-]    the same where no hit asks for anything: the work of supports that move is right to
@@ -71,8 +71,8 @@ static double normal_velocity(const bbm_model *m, const bbm_contact *c, const bb
     return velocity;
 }
 
-/* h/2 times the normal velocity with which P1 came. It has changed evenly until P1 hit, after the
- * share t of the step and the way d0. */
+/* h/2 times the normal velocity with which P1 came. It changes evenly over the step, with the mean
+ * -d0/(t h), and P1 hits after the share t of the step. */
 static double approach(const bbm_model *m, const bbm_contact *c)
 {
     const double t = 1 - c->trial.time_left;
@@ -94,8 +94,8 @@ static bbm_account *account_of(const bbm_model *m, int i)
     return &m->beyond->account[m->K->component[i]];
 }
 
-/* Whether the velocity of a support changes from the step before to this one as it did before, or
- * hardly; else it changes at once. */
+/* Whether the velocity of a support changes as it did in the step before, or hardly at all; else it
+ * jumps. */
 static int changes_evenly(const bbm_model *m, int node)
 {
     const bbm_support *s = &m->beyond->support[node];

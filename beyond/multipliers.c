@@ -13,7 +13,7 @@
  */
 #include "beyond.h"
 
-/* d = d0 + Ti Di - Tj Dj of the solution, Eq. (18), (30). */
+/* d [m] = d0 + Ti Di - Tj Dj of the solution, Eq. (22), (33). */
 void bbm_gap_length(const bbm_model *m, const bbm_gap *g, double d[2])
 {
     for (int r = 0; r < 2; r++) {

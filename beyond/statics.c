@@ -1,8 +1,7 @@
 /* statics.c - what holds a body; static steps whose contacts find no end; and which block falls.
  *
- * Before a step in statics the gaps between a body and the wall, fixed points in the main, must
- * hold it against rigid motion; a body is what gaps and contacts join. That a block slides, tips
- * or falls shows later.
+ * Before a step in statics the gaps between a component of K and the wall, fixed points in the
+ * main, must hold it against rigid motion. That a block slides, tips or falls shows later.
  *
  * A static step asks for the states of all contacts at once, and each that slides or opens takes
  * away what held others. K may be singular long before the states are right, though there is an
@@ -226,12 +225,12 @@ static bbm_status try_statics(bbm_model *m)
     return status;
 }
 
-/* Steps from rest, each as long as it settles without that blocks part far in it, until statics
- * finds an equilibrium from where they are, forces balance without inertia, or blocks have parted.
- * Joints hold until forces balance with what holds them: at first inertia bears the weight.
- * A length that failed, or after which statics did, is not tried again for some steps. Lengths
- * count in the time in which the lightest element that is not held swings on a contact spring, or
- * with friction on the softest element if that gives way more: then it matters who comes first. */
+/* Steps from rest, each as long as it settles and blocks part little in it, until statics finds an
+ * equilibrium from where they are, forces balance without inertia, or blocks have parted. Joints
+ * hold until forces balance with what holds them: at first inertia bears the weight. A length that
+ * failed, or after which statics did, is not tried again for some steps. Lengths count in the time
+ * in which the lightest element that is not held swings on a contact spring, or with friction on
+ * the softest element if that gives way more: then it matters who comes first. */
 static bbm_status creep(bbm_model *m, const bbm_model *from)
 {
     double failed = INFINITY, tried = 0, parted = 0, lacks = 1;

@@ -12,8 +12,7 @@
  * A fixed point is held to a wall point by a stiff spring and its multiplier: what these carry at
  * the end of the step is the force of the support, the reaction. In equilibrium the reactions
  * balance the loads. A wall point may be displaced between the steps. The support then does work:
- * its force at the end of the step times its way, as for the loads. (Newmark with beta = 1/2,
- * gamma = 1 takes the forces at the end, see energy.c.)
+ * its force at the end of the step times its way, as for the loads.
  *
  * The paper's plates are free to strain along the axis, out of the plane: plane stress. A slice of
  * a long dam or tunnel is not. With ezz = 0 Hooke's law (7) is the same in the plane with
@@ -21,7 +20,7 @@
  *     E/(1 - nu^2) in place of E,      nu/(1 - nu) in place of nu
  *
  * (Timoshenko and Goodier, Theory of Elasticity, chapter 2), G stays, and out of the plane there is
- * szz = nu (sx + sy), with n = nu/(1 - nu): nu = n/(1 + n).
+ * szz = nu (sx + sy). With n the nu of the plane, nu = n/(1 + n).
  */
 #include "beyond.h"
 
@@ -46,7 +45,7 @@ static double weight_of(const bbm_model *m, const bbm_edge_load *water)
  * other. In statics both begin with the next step, when the forces have their new arms, too.
  *
  * The mean of a point's start and end lies on the chord of its way: when the element turns by r,
- * cos(r/2) as far from the barycentre. As far as ever, the element displaces the same water. */
+ * cos(r/2) as far from the barycentre. `whole` undoes this, and it displaces the same water. */
 static void press(const bbm_model *m, const bbm_edge_load *load, int r, const double D[6],
                   double N[6], double sinks[6][6], double turns[6][6])
 {
@@ -147,7 +146,7 @@ void bbm_gather_edge_loads(bbm_model *m)
 }
 
 /* Puts what presses at the solution in the place of what was taken for it among the loads. Returns
- * by how much more of it the two differ than is left, N: the solver is not more exact. */
+ * the most by which the two differ beyond SETTLED of the load, N. */
 double bbm_settle_loads(bbm_model *m)
 {
     double most = 0;
@@ -233,8 +232,8 @@ static void catch_node(bbm_model *m, int n, int directions)
 }
 
 /* Puts the wall points where they are at the end of the part of a step in hand: the rest of their
- * way is left. The velocity with which a node comes that is held from now on counts as that of its
- * support so far. Such nodes are caught. */
+ * way is left. The velocity of a node that is held from now on counts as that of its support so
+ * far: such nodes are caught. */
 void bbm_place_supports(bbm_model *m)
 {
     for (int n = 0; n < m->nodes; n++) {
