@@ -652,8 +652,7 @@ static int gives_way(const bbm_model *m, pair p, int end, meeting kind)
     const int beside = lies_over(m, P, q.edge, !end) - lies_over(m, P, p.edge, end);
     if (kind == NEXT)
         return beside != 0 ? beside > 0 : !goes_before(m, p.edge, q.edge);
-    if (is_corner(m, P) != is_corner(m, Q)
-        && most <= fmax(bbm_rounding(m, P), bbm_rounding(m, Q)))
+    if (is_corner(m, P) != is_corner(m, Q) && most <= fmax(bbm_rounding(m, P), bbm_rounding(m, Q)))
         return is_corner(m, Q);
     if (most > touch)
         return kind == FLUSH && is_corner(m, P) && is_corner(m, Q) && f.beyond > g.beyond

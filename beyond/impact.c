@@ -115,8 +115,7 @@ static int changes_evenly(const bbm_model *m, int node)
  * But an unbroken joint does not hit. */
 static int may_hit(const bbm_model *m, const bbm_contact *c)
 {
-    return !((c->trial.was_closed || c->trial.touches) && bbm_is_strong(c))
-        && (!c->trial.was_closed || account_of(m, c->element[0])->struck > 1);
+    return !bbm_is_strong(c) && (!c->trial.was_closed || account_of(m, c->element[0])->struck > 1);
 }
 
 static int has_closed(const bbm_model *m, const bbm_contact *c)
@@ -164,9 +163,9 @@ static double rigidity(const bbm_model *m, int i)
     return fmax(1, RIGID * 2 * account_of(m, i)->mass / (m->h * m->h * of->E * of->thickness));
 }
 
-/* Adds to K what makes bodies rigid in a step with a hit: they resist strain and the opening of
- * bonds, from what they have at its start. Springs of bonds, not their moments, are alpha times as
- * stiff by themselves. */
+/* Adds to K what makes bodies rigid in a step with a hit: they resist strain, without Poisson's
+ * effect, and the opening of bonds, from what they have at its start. Springs of bonds, not their
+ * moments, are alpha times as stiff by themselves. */
 void bbm_stiffen(bbm_model *m)
 {
     if (m->beyond->restitution < 0 || bbm_is_static(m) || m->par.velocity_factor < 1
@@ -177,6 +176,7 @@ void bbm_stiffen(bbm_model *m)
         bbm_element e = m->element[i];
         bbm_submatrix s = { { { 0 } }, { 0 } };
         e.material.E *= rigidity(m, i) - 1;
+        e.material.nu = 0;
         bbm_elastic_submatrix(&e, &s);
         bbm_matrix_add(m->K, i, i, s.K);
     }
@@ -219,6 +219,7 @@ static void start_elements(bbm_model *m, const bbm_model *end)
         if (m->K->body[i] < 0)
             bbm_follow_supports(m, e, support_velocity);
         e->material.E *= rigidity(end, i);
+        e->material.nu *= m->beyond->restitution < 0;   /* what is rigid does not spread        */
         bbm_elastic_matrix(&e->material, E);
         memset(e->stress, 0, sizeof e->stress);
         for (int a = 0; a < 6; a++) {
