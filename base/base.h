@@ -121,6 +121,8 @@ typedef struct {                /* what the detection and the open-close iterati
     bbm_contact_state next_state;               /* in the next pass                             */
     int    closings;            /* how often it has closed in the step                          */
     int    unsettled;           /* the last pass has changed its state or its friction          */
+    /* --- a hook --- */
+    double jump[2];             /* N        what a jump of velocities adds to N and T           */
 } bbm_trial;
 
 struct bbm_contact {            /* vertex P1 of one block against an edge P2 P3 of another      */

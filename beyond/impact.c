@@ -270,15 +270,11 @@ static void start_contacts(bbm_model *m, const bbm_model *step)
         bbm_contact_vectors(m, c, 0, v);
         bbm_contact_vectors(m, c, 1, from_end);
         c->anchor = v[1].d / (v[1].d - from_end[1].d);      /* where d_s is 0: it is linear     */
-        const int again = c->hit == 1 && of->struck <= 1;
-        const double back = has_closed(m, c) && !again ? E * sqrt(of->asked) : 0;
+        const int hits = has_closed(m, c) && (c->hit != 1 || of->struck > 1);
         const double asked = E < 0 ? m->h * normal_velocity(m, c, m->element)
-                                   : back * fmax(0, -approach(step, c));
-        c->rest = v[0].d + (of->jumps > 0) * asked;
-        if (c->state == BBM_OPEN || of->jumps == 0) {
-            c->state = BBM_OPEN;
-            c->rest = -INFINITY;
-        }
+                                   : hits * E * sqrt(of->asked) * fmax(0, -approach(step, c));
+        c->state = of->jumps == 0 ? BBM_OPEN : c->state;
+        c->rest = c->state == BBM_OPEN ? -INFINITY : v[0].d + (of->jumps > 0) * asked;
         c->strength = of->jumps < -1 ? (bbm_strength){ 0 } : c->strength;
         c->trial = (bbm_trial){ .was_closed = 1, .time_left = 1, .entrance = { -1, -1, -1, -1 },
                                 .N_of_friction = c->trial.N_of_friction };
@@ -357,8 +353,9 @@ static void find_work(bbm_model *m)
     }
 }
 
-/* The elements at the end of the step take their velocities, the contacts what they were. But with
- * a restitution the spring of one that has had its impulse starts unloaded. */
+/* The elements at the end of the step take their velocities. The contacts are what they were, and
+ * note what the jump adds to their forces. With a restitution the spring of one that has had its
+ * impulse starts unloaded. */
 static void take(bbm_model *m, bbm_model *end)
 {
     find_work(m);
@@ -368,13 +365,16 @@ static void take(bbm_model *m, bbm_model *end)
     for (int k = 0; k < m->scratch->contacts; k++) {
         bbm_contact *c = &m->scratch->contact[k];
         const int jumped = isfinite(c->rest), opens = c->state == BBM_OPEN;
+        const double N = opens ? 0 : c->N, T = opens ? 0 : bbm_shear_force(c);
         *c = m->beyond->jump_of[k];
-        if (!jumped || m->beyond->restitution < 0 || !(opens || has_closed(m, c)))
-            continue;
-        c->hit = 1;
-        c->area = 0;
-        c->rest = fmin(0, c->d_n);
-        c->N = c->T = c->trial.time_left = 0;
+        if (jumped && m->beyond->restitution >= 0 && (opens || has_closed(m, c))) {
+            c->hit = 1;
+            c->area = 0;
+            c->rest = fmin(0, c->d_n);
+            c->N = c->T = c->trial.time_left = 0;
+        }
+        c->trial.jump[0] = jumped ? N - c->N : 0;
+        c->trial.jump[1] = jumped ? T - bbm_shear_force(c) : 0;
     }
 }
 

@@ -41,6 +41,12 @@ double field_of_node(const field *f, const bbm_model *m, int node, int block);  
 /* All values of the table; `fits`: with the plane fit, which takes time; else stress for it. */
 void   field_all_of_node(const bbm_model *m, int node, int block, int fits, double all[FIELD_ROWS]);
 
+/* The normal (0) and the shear force (1) of a contact in the last step, N. */
+static inline double field_acts(const bbm_contact *c, int shear)
+{
+    return (shear ? c->T : c->N) + c->trial.jump[shear];
+}
+
 /* The force of a contact that carries N and T on the corner's block, as a vector. */
 void field_contact_force(const bbm_model *m, const bbm_contact *c, double N, double T, double f[2]);
 

@@ -72,8 +72,8 @@ void model_follow(const model *p, model_monitor *m, double x[MODEL_FOLLOWED])
         int here = m->nodes == 0;
         for (int n = 0; n < m->nodes; n++)
             here |= m->node[n] == bbm_start_of(b, c->corner)->node;
-        double of[] = { c->N, c->T, 0, 0 };
-        field_contact_force(b, c, sign * c->N, sign * c->T, of + 2);
+        double of[] = { field_acts(c, 0), field_acts(c, 1), 0, 0 };
+        field_contact_force(b, c, sign * of[0], sign * of[1], of + 2);
         for (int a = 0; a < LENGTH(of) && sign && here; a++)
             x[a] += of[a];
         m->touched |= sign && here && c->state != BBM_OPEN;

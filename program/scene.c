@@ -215,11 +215,12 @@ void scene_record(scene *s, const bbm_model *m)
     for (int k = 0; k < m->contacts && !s->field; k++) {
         const bbm_contact *c = &m->contact[k];
         const bbm_edge *corner = &m->edge[c->corner];
+        const double N = field_acts(c, 0);
         double force[2];
-        field_contact_force(m, c, c->N, c->T, force);
+        field_contact_force(m, c, N, field_acts(c, 1), force);
         if (c->state != BBM_OPEN)
-            f.force[f.forces++] = (scene_force){ f.at[corner->a], { force[0], force[1] }, c->N,
-                                                 c->N < 0 ? PULLED : (int)c->state,
+            f.force[f.forces++] = (scene_force){ f.at[corner->a], { force[0], force[1] }, N,
+                                                 N < 0 ? PULLED : (int)c->state,
                                                  { corner->block, m->edge[c->edge].block } };
     }
     thin_out(s);

@@ -140,7 +140,8 @@ static void put_contacts(FILE *f, const write_results *w)
         if (c->state != BBM_OPEN)
             fprintf(f, "%s,%s,%.15g,%.15g,%s,%.15g,%.15g,%.15g\n", p->block[corner->block],
                     p->block[m->edge[c->edge].block], start->x + P1->u, start->y + P1->v,
-                    c->state == BBM_LOCK ? "LOCK" : "SLIDE", c->N, c->T, c->d_n);
+                    c->state == BBM_LOCK ? "LOCK" : "SLIDE", field_acts(c, 0), field_acts(c, 1),
+                    c->d_n);
     }
 }
 
@@ -332,7 +333,8 @@ static void put_vtk_contacts(FILE *f, const write_results *w)
     for (int shear = 0; shear < 2; shear++) {
         fprintf(f, "VECTORS %s double\n", shear ? "shear" : "normal");
         for (const bbm_contact *c = m->contact; c < end; c++) {
-            field_contact_force(m, c, shear ? 0 : c->N, shear ? c->T : 0, force);
+            const double of[2] = { field_acts(c, 0), field_acts(c, 1) };
+            field_contact_force(m, c, shear ? 0 : of[0], shear ? of[1] : 0, force);
             if (c->state != BBM_OPEN)
                 fprintf(f, "%.15g %.15g 0\n", force[0], force[1]);
         }

@@ -519,14 +519,15 @@ START_TEST(what_is_held_on_its_way_stands)
 END_TEST
 
 /* A belt that is moved at 1 m/s carries a stone: after 0.5 s both have that velocity to 1e-3, and
- * no force is left along it, to 1e-2 of the weight. In cut steps the motion is shared. */
+ * no force is left along it, to 1e-2 of the weight. In cut steps the motion is shared. The contacts
+ * have what the support has, to the solver's error; with a restitution, too. */
 START_TEST(what_a_support_moves_evenly_moves_evenly)
 {
     const double weight = 0.5 * DENSITY * GRAVITY;
-    bbm_model *m = hard_blocks(-1, 40);
+    bbm_model *m = hard_blocks(_i < 2 ? -1 : 0, 40);
 
     m->par.dt = 5e-3;
-    m->hook->renew = _i ? refuse_long : m->hook->renew;
+    m->hook->renew = _i == 1 ? refuse_long : m->hook->renew;
     add_rectangle(m, 0, ROCK, (rectangle){ .x = -2, .y = -0.1, .w = 8, .h = 0.1, .fixed = 1 });
     add_rectangle(m, 1, ROCK, (rectangle){ .w = 1, .h = 0.5 });
     ck_ok(bbm_prepare(m), m);
@@ -534,7 +535,8 @@ START_TEST(what_a_support_moves_evenly_moves_evenly)
         const double force = pull_to(m, 0, k * m->par.dt);
         double shear = 0;
         for (int c = 0; c < m->contacts; c++)
-            shear += m->contact[c].T;
+            shear += m->contact[c].T + m->contact[c].trial.jump[1];
+        ck_near(force, -shear, weight, 1e-6);
         ck_near(m->element[0].V[0], 1, 1, 1e-3);
         ck_near(m->element[1].V[0], 1, 1, k < 50 ? 1 : 1e-3);
         ck_near(hypot(force, shear), 0, weight, k < 50 ? INFINITY : 1e-2);
@@ -886,7 +888,7 @@ Suite *impact_suite(void)
         { an_unbroken_joint_does_not_hit, 1 },
         { a_paddle_of_any_stiffness_turns_and_hits_alike, 2 },
         { what_is_held_on_its_way_stands, 2 },
-        { what_a_support_moves_evenly_moves_evenly, 2 },
+        { what_a_support_moves_evenly_moves_evenly, 3 },
         { a_support_that_swings_pulls_with_mass_times_acceleration, 2 },
         { a_support_that_turns_a_block_does_the_work_of_turning_it, 2 });
     return s;
