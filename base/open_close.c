@@ -58,6 +58,7 @@ static void begin_contact(const bbm_model *m, bbm_contact *c)
         lines += c->trial.entrance[k] >= 0;
     c->trial.time_left = 1;
     c->trial.closings = 0;
+    c->trial.jump[0] = c->trial.jump[1] = 0;
     c->trial.N_of_friction = c->N;
     if (c->trial.has_left)
         bbm_forget(c);

@@ -461,6 +461,26 @@ START_TEST(an_unbroken_joint_does_not_hit)
 }
 END_TEST
 
+/* A block falls on two ledges with another one that hangs from it by a joint. To stop that in a step takes 5 MPa of its joint, to
+ * throw it back half as much again. The joint has 6.5 MPa: the jump tears it, and the lower block falls on as if free. */
+START_TEST(a_joint_that_a_hit_tears_is_broken)
+{
+    const double v = 2, dt = 1e-3, low = 1e-4;
+    bbm_model *m = hard_blocks(0.5, 0);
+
+    ck_near(DENSITY * v / dt, 5e6, 5e6, 1e-6);
+    m->par.dt = dt;
+    m->beyond->tension = m->beyond->cohesion = 6.5e6;
+    add_rectangle(m, 0, BASE, (rectangle){ -3, -1, 2.4, 1, .fixed = 1 });
+    add_rectangle(m, 1, BASE, (rectangle){ 0.6, -1, 2.4, 1, .fixed = 1 });
+    set_velocity(m, add_rectangle(m, 2, ROCK, (rectangle){ -1.5, low, 3, 1, .fixed = 0 }), 0, -v);
+    set_velocity(m, add_rectangle(m, 3, ROCK, (rectangle){ -0.5, low - 1, 1, 1, .fixed = 0 }), 0, -v);
+    run_steps(m, 20);
+    ck_near(m->element[3].V[1], -v - 20 * dt * GRAVITY, v, 1e-3);
+    ck_near(m->element[2].V[1], v / 2 - 20 * dt * GRAVITY, v, 0.01);        /* 1 %: the promise   */
+}
+END_TEST
+
 /* A paddle turns at 1 rad/s, each corner on its circle, and hits a block, which gives back all. How stiff the paddle is
  * counts neither for the block nor for the work. */
 START_TEST(a_paddle_of_any_stiffness_turns_and_hits_alike)
@@ -886,6 +906,7 @@ Suite *impact_suite(void)
         { a_lone_piston_makes_no_energy, 1 },
         { a_block_bounces_from_a_floor_that_moves_as_from_one_at_rest, 2 },
         { an_unbroken_joint_does_not_hit, 1 },
+        { a_joint_that_a_hit_tears_is_broken, 1 },
         { a_paddle_of_any_stiffness_turns_and_hits_alike, 2 },
         { what_is_held_on_its_way_stands, 2 },
         { what_a_support_moves_evenly_moves_evenly, 3 },
