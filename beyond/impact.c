@@ -22,8 +22,8 @@
  * block that comes to rest would hop from corner to corner, and sink in each hop. The open-close
  * iteration finds which contacts stay closed and which slide. It judges the forces of the step and
  * of the jump together, for they act in the same time: F takes back the contact forces of the step,
- * and the jump finds them anew. In between two bodies all this is push and pull, so that momentum
- * stays.
+ * and the jump finds them anew. A contact that is not hit begins with its normal force, or what is
+ * squeezed would lose it. In between two bodies all this is push and pull, so that momentum stays.
  *
  * With a restitution a contact that is hit, or that the jump opens, has had its impulse: its spring
  * starts unloaded. Without one it keeps what it bears, or a light block that moves to and fro under
@@ -270,9 +270,9 @@ static void start_contacts(bbm_model *m, const bbm_model *step)
         bbm_contact_vectors(m, c, 0, v);
         bbm_contact_vectors(m, c, 1, from_end);
         c->anchor = v[1].d / (v[1].d - from_end[1].d);      /* where d_s is 0: it is linear     */
-        const int hits = has_closed(m, c) && (c->hit != 1 || of->struck > 1);
-        const double asked = E < 0 ? m->h * normal_velocity(m, c, m->element)
-                                   : hits * E * sqrt(of->asked) * fmax(0, -approach(step, c));
+        const int hits = E >= 0 && has_closed(m, c) && (c->hit != 1 || of->struck > 1);
+        const double asked = hits ? E * sqrt(of->asked) * fmax(0, -approach(step, c))
+                           : c->N / m->par.p_n + (E < 0) * m->h * normal_velocity(m, c, m->element);
         c->state = of->jumps == 0 ? BBM_OPEN : c->state;
         c->rest = c->state == BBM_OPEN ? -INFINITY : v[0].d + (of->jumps > 0) * asked;
         c->strength = of->jumps < -1 ? (bbm_strength){ 0 } : c->strength;
