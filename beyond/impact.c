@@ -72,12 +72,13 @@ static double normal_velocity(const bbm_model *m, const bbm_contact *c, const bb
 }
 
 /* h/2 times the normal velocity with which P1 came. It changes evenly over the step, with the mean
- * -d0/(t h), and P1 hits after the share t of the step. */
+ * -d0/(t h), and P1 hits after the share t of the step. Of what has closed twice, or is open in the
+ * end, springs have changed the way: it has the velocity of the start. */
 static double approach(const bbm_model *m, const bbm_contact *c)
 {
-    const double t = 1 - c->trial.time_left;
+    const double t = 1 - c->trial.time_left, came = m->h / 2 * normal_velocity(m, c, m->element);
 
-    return (1 - 2 * t) * m->h / 2 * normal_velocity(m, c, m->element) - fmax(0, c->trial.d_n0);
+    return t == 0 || c->trial.closings > 1 ? came : (1 - 2 * t) * came - fmax(0, c->trial.d_n0);
 }
 
 /* 1/mass of an element that is free to move. */
@@ -314,8 +315,9 @@ static int moves(const bbm_model *m, int node)
 }
 
 /* Which components jump: those with a hit with a restitution, or a support that moves. Returns
- * whether there is one. What would hit in the next small share of a step hits as well: rounding
- * does not decide which corner of a flat block is first. */
+ * whether there is one. What would hit in the next small share of a step hits as well, for rounding
+ * does not decide which corner of a flat block is first; and so does what would have hit if
+ * friction at another corner had not lifted it. */
 static int find_causes(const bbm_model *m, const bbm_model *end)
 {
     int any = 0;
@@ -323,11 +325,10 @@ static int find_causes(const bbm_model *m, const bbm_model *end)
     find_hits(m);
     for (bbm_contact *c = m->scratch->contact; c < bbm_end_of_contacts(m); c++)
         if (account_of(m, c->element[0])->jumps && c->state == BBM_OPEN && !c->trial.was_closed
-            && c->d_n < -EARLY * m->h * normal_velocity(m, c, end->element)
-            && !bbm_is_blocked(m, c)) {
+            && !bbm_is_blocked(m, c)
+            && (c->d_n < -EARLY * m->h * normal_velocity(m, c, end->element)
+                || c->trial.d_n0 < -m->h * normal_velocity(m, c, m->element)))
             c->state = BBM_LOCK;
-            c->trial.time_left = 0;
-        }
     for (int v = 0; v < m->vertices; v++)
         any |= account_of(m, m->vertex[v].element)->jumps |= moves(m, m->vertex[v].node);
     return any;

@@ -659,6 +659,30 @@ START_TEST(a_slim_block_that_lands_flat_gives_back_what_is_asked_for)
 }
 END_TEST
 
+/* A block comes down flat, and its stiff shear springs lift one of its corners while they stop it,
+ * or close it twice: both corners hit with the velocity with which they came. Friction takes its
+ * share of the sideways velocity, and the resultant stays in the foot, so that nothing turns. */
+START_TEST(both_corners_hit_as_they_came_whatever_friction_does_in_the_step)
+{
+    const double E = 0.8, w = 0.45 + 0.05 * (_i % 3), friction = 20 + 7 * (_i / 3 % 4), slip = 0.3 + 0.4 * (_i / 12 % 2);
+    const double most = (1 + E) * tan(friction * acos(-1) / 180), takes = fmin(slip, most), high = (4.1 + 0.06 * _i) * 1e-4;
+    bbm_model *m = weightless_blocks();
+
+    m->material[ROCK].E = 1e10, m->material[BASE].E = 1e12;
+    m->par.dt = 1e-3;
+    m->par.friction = friction;
+    m->beyond->restitution = E;
+    set_springs(m, 1e10, 4e9);
+    add_table(m, 0);
+    const int e = add_rectangle(m, 1, ROCK, (rectangle){ 0, high, w, 1, .fixed = 0 });
+    set_velocity(m, e, slip, -1);
+    run_steps(m, 1);
+    ck_near(m->element[e].V[1], E, 1, 0.01);                    /* 1 %: the promise                                    */
+    ck_near(m->element[e].V[0], slip - takes, 1, 0.01);
+    ck_near(m->element[e].V[2], 0, 1 / w, 0.01);
+}
+END_TEST
+
 /* Two stones slide on a floor, one on the other, stop by friction, and lie there: no corner is much deeper than the weight
  * asks for, and the floor carries it. Each corner hits again and again before it has come out of the floor. */
 START_TEST(a_stack_that_slid_to_a_stop_with_a_restitution_sinks_no_further)
@@ -886,6 +910,7 @@ Suite *impact_suite(void)
         { what_a_hit_gives_back_depends_on_neither_the_step_nor_the_mesh, 4 },
         { both_corners_of_a_block_that_comes_down_all_but_flat_hit, 6 },
         { a_slim_block_that_lands_flat_gives_back_what_is_asked_for, 24 },
+        { both_corners_hit_as_they_came_whatever_friction_does_in_the_step, 24 },
         { a_square_that_gives_back_all_or_nearly_all_bounces_on, 4 },
         { a_stack_that_slid_to_a_stop_with_a_restitution_sinks_no_further, 3 },
         { a_square_that_turns_over_a_rim_in_long_steps_makes_no_energy, 1 },
