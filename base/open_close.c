@@ -16,8 +16,8 @@
  *             their component of K is solved: the solver is not more exact
  * DIGITS [-]  rounding of a position after some sums, against the position. What a spring makes of
  *             it counts as no force
- * FIT    [-]  of a force, the most that rounding may add to its tolerance: friction is right to 0.01
- *             degrees */
+ * FIT    [-]  of a force, the most that rounding may add to its tolerance: so friction is right to
+ *             0.01 degrees */
 #define AGREE 1e-9
 #define DIGITS 1e-15
 #define FIT 2e-4

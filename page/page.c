@@ -307,11 +307,10 @@ static void put_contacts(page *g, const bbm_model *m)
 {
     for (int k = 0; k < m->contacts; k++) {
         const bbm_contact *c = &m->contact[k];
-        const double N = field_acts(c, 0), T = field_acts(c, 1);
         double f[2];
-        field_contact_force(m, c, N, T, f);
-        PUT(&g->out, c->corner, c->edge, c->state, f[0], f[1], N, T, c->d_n,
-            bbm_shear_strength(&c->strength, c->N), c->slip);
+        field_contact_force(m, c, field_acts(c, 0), field_acts(c, 1), f);
+        PUT(&g->out, c->corner, c->edge, c->state, f[0], f[1], field_acts(c, 0), field_acts(c, 1),
+            c->d_n, bbm_shear_strength(&c->strength, c->N), c->slip);
     }
 }
 
