@@ -76,7 +76,7 @@ static void build(bbm_model *m, const variant *v, int *first)
     m->par.alpha = v->beyond ? 1e4 : 1000;
     m->par.p_n = 5e11;
     m->par.p_s = 2e11;
-    m->par.pcg.tolerance = 1e-13;
+    m->par.pcg.tolerance = 1e-10;
     m->par.steps = STEPS;
     case_must(m, bbm_prepare(m));
     for (int i = 0; i < SETTLE; i++)            /* each begins at rest */

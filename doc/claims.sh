@@ -181,13 +181,13 @@ blocks()
 # The paper's solver beside two levels, on triangles; digits that rounding decides are left out.
 levels()
 {
-    for n in 8 16; do
+    for n in 4 8; do
         for a in 10 1000; do
             for c in off on; do
                 { beam $((4 * n)) $n $a 0 | sed '/^pcg/d'; echo "pcg coarse $c"; } | run
                 tail -1 out/claims/summary.csv
             done | awk -F, -v u=$((96 * n * n)) -v a=$a '{ x[NR] = $4 } END {
-                printf "%5d unknowns, alpha %4d: SSOR about %4d iterations, two levels %s\n", u, a,
+                printf "%4d unknowns, alpha %4d: SSOR about %4d iterations, two levels %s\n", u, a,
                     sprintf("%.1g", x[1]), (x[2] > 15 ? x[2] : "15 or fewer")
             }'
         done

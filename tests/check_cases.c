@@ -200,11 +200,11 @@ END_TEST
 /* ------------------------------------------------------------------------------ the paper alone */
 
 /* What a model with beyond/ has computed says so in its line, or stands below the heading "With
- * beyond/". All other lines are those of `make paper`, blank ones apart. */
+ * beyond/". All other lines of the first two experiments are those of `make paper`, blank ones apart. */
 START_TEST(without_beyond_the_same_is_printed_as_the_papers_way)
 {
     ck_assert_int_eq(system("cd out && awk '/^## With beyond/ { cut = 1 } /^Numbers/ { cut = 0 } "
-                            "NF && !cut && !/beyond[/]/' run.log > run.paper && "
+                            "NF && !cut && !/beyond[/]/' exp1.log exp2.log > run.paper && "
                             "awk NF paper/paper.log | head -n $(wc -l < run.paper) | "
                             "diff - run.paper >&2"), 0);
     ck_assert_int_eq(system("[ $(grep -c '^|' out/run.paper) -gt 90 ]"), 0);

@@ -44,7 +44,7 @@ static const growing rows[] = {
     { RUN, "node 1@ @ 0\nnode 2@ @ 1\nelement ^ b m 1@ 1^ 2^ 2@\n", "node 1$ $ 0\nnode 2$ $ 1\n", 2000 },
     { "", "material m@ E 1e9 nu 0.2 density 2500\n", ONE, 10000 },
     { RUN, "block b@ m @ 0 ^ 0 ^ 1 @ 1\n", "", 1200 },
-    { RUN, "block b@ m @ 0 ^ 0 ^ 1 @ 1\nfix at @ 0\n", "", 4000 },
+    { RUN, "block b@ m @ 0 ^ 0 ^ 1 @ 1\nfix at @ 0\n", "", 1500 },
     { RUN, "block b@ m 0 @ 1 @ 1 ^ 0 ^\nfixblock b@\nvelocity b@ 1 0\nstress b@ 1 2 3\nbodyforce b@ 0 1\n", "", 1000 },
     { RUN "grid g m 0 0 1 1 $ 1\n", "", "", 2000 },
     { RUN "grid g m 0 0 1 1 1 $\n", "", "", 2000 },
@@ -163,7 +163,7 @@ END_TEST
 
 #define LARGE "\nmaterial large E 1e9 nu 0.2 density 2500\ngrid large large 1000 0 $ 1 $ 1\n"
 
-/* The wrong models, each with a grid beside what is wrong. */
+/* The wrong models, each with a grid beside what is wrong. Those of `repeat` run to its bound, whatever follows. */
 START_TEST(an_error_in_a_model_twice_as_large_takes_twice_as_much)
 {
     DIR *d = opendir("tests/bad");
@@ -171,7 +171,7 @@ START_TEST(an_error_in_a_model_twice_as_large_takes_twice_as_much)
     char path[300];
 
     for (int k = 0; (entry = readdir(d)) != NULL; )
-        if (strstr(entry->d_name, ".model") && k++ % SHARES == _i) {
+        if (strstr(entry->d_name, ".model") && strncmp(entry->d_name, "repeat", 6) != 0 && k++ % SHARES == _i) {
             snprintf(path, sizeof path, "tests/bad/%.200s", entry->d_name);
             char *text = read_all(path);
             check_growth(&(growing){ text, "", LARGE, 500 }, path);
