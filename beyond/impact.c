@@ -366,7 +366,7 @@ static void take(bbm_model *m, bbm_model *end)
     for (int k = 0; k < m->scratch->contacts; k++) {
         bbm_contact *c = &m->scratch->contact[k];
         const int jumped = isfinite(c->rest), opens = c->state == BBM_OPEN;
-        const double N = opens ? 0 : c->N, T = opens ? 0 : bbm_shear_force(c);
+        const double N = c->N, T = bbm_shear_force(c);
         *c = m->beyond->jump_of[k];
         if (jumped && m->beyond->restitution >= 0 && (opens || has_closed(m, c))) {
             c->hit = 1;

@@ -1013,6 +1013,24 @@ START_TEST(a_slow_press_bears_what_its_springs_do)
 }
 END_TEST
 
+/* What a block that hits obliquely has lost and what it has got, its contact gave it, and stands in the table
+ * of the step. A stone far away that rests bears its weight in that step, too. */
+START_TEST(the_impulse_of_a_hit_is_in_the_tables_and_no_other)
+{
+    ck_assert_int_eq(run_text("impulse", "material rock E 1e12 nu 0.2 density 1000\nblock f rock -9 -1 9 -1 9 0 -9 0\n"
+        "fixblock f\nblock b rock 0 0.03 1 0.03 1 1.03 0 1.03\nblock s rock 5 0 6 0 6 1 5 1\nvelocity b 0.3 -2\n"
+        "gravity 0 -10\ncontact kn 1e9 friction 5 restitution 0.5\ndynamic dt 0.002 steps 12\n"
+        "monitor hit joint b f\nmonitor rest joint s f\n"), 0);
+    const double x = sum("impulse", "history.csv", "hit_fx", ""), y = sum("impulse", "history.csv", "hit_fy", "");
+    ck_near(0.002 * x, 1000 * (cell("impulse", "elements.csv", "2,b,", "vx") - 0.3), 1000, 1e-6);
+    ck_near(0.002 * y, 1000 * (cell("impulse", "elements.csv", "2,b,", "vy") + 2 + 10 * 0.024), 1000, 1e-6);
+    ck_near(x, -bbm_tangent(5) * y, y, 1e-6);
+    ck_assert_double_gt(0.002 * y, 2900);
+    /* Springs of 2e9 N/m begin without their load. */
+    ck_near(sum("impulse", "history.csv", "rest_normal", ""), 12 * 1e4, 1e4, 0.1);
+}
+END_TEST
+
 /* It stops after V^2 / (2 tan(phi) g), with tops that differ by a millionth of a metre. With a restitution springs begin anew at
  * hits, and so lower at each brick; they get their lengths back, too. */
 START_TEST(what_slides_over_low_ledges_with_a_restitution_does_not_sink)
@@ -1752,6 +1770,7 @@ static void add_what_the_file_says(TCase *t)
     tcase_add_test(t, what_slides_over_soft_bricks_does_not_sink_into_them);
     tcase_add_test(t, a_grid_point_that_passes_a_seam_doubles_no_force);
     tcase_add_test(t, what_slides_over_low_ledges_with_a_restitution_does_not_sink);
+    tcase_add_test(t, the_impulse_of_a_hit_is_in_the_tables_and_no_other);
     tcase_add_loop_test(t, a_slow_press_bears_what_its_springs_do, 0, 3);
     tcase_add_loop_test(t, a_column_between_a_floor_and_a_piston_may_stand_at_any_angle, 0, 8);
     tcase_add_test(t, the_hits_of_a_step_that_is_tried_again_count_once);
