@@ -43,7 +43,9 @@ extern "C" {
 enum { BBM_GAUSS = 4 };                     /* Gauss points of a line load: exact to degree 7   */
 enum { BBM_X = 1, BBM_Y = 2, BBM_XY = 3 };  /* directions in which a point is held; they add up */
 
-/* What a call returns. bbm_message() says what failed, where, and what was expected. */
+/* What a call returns. bbm_message() says what failed, where, and what was expected. The core does
+ * not look for BBM_SELF_CROSSING and BBM_BLOCKS_OVERLAP. BBM_STEPS_EXHAUSTED: (71) is not met;
+ * BBM_NO_EQUILIBRIUM: something falls. */
 typedef enum {
     BBM_OK, BBM_NO_MEMORY,
     /* --- the model is wrong --- */
@@ -78,7 +80,7 @@ typedef struct {
 typedef struct {                /* a grid point; each element that meets there has a vertex on it */
     double x, y;                /* m        starting position                */
     int    held;                /* BBM_X, BBM_Y or both: a fixed point       */
-    double wall[2];             /* m        displacement of its wall point W */
+    double wall[2];             /* m        of its wall point W, since the start */
     double load[2];             /* N        concentrated load                */
 } bbm_node;
 
@@ -106,7 +108,8 @@ typedef struct {                /* triangle, quadrilateral, simple polygon, or a
     double V[6];                /* D/s      velocity: the time derivative of D                  */
     double stress[3];           /* Pa       sx, sy, sxy, carried from step to step              */
     double sum[3];              /* m, m, rad    u0, v0 and r0, summed over the steps            */
-    double D[6];                /* of the last step: u0, v0 [m], r0 [rad], ex, ey, gxy [-]      */
+    double D[6];                /* of the last step, or of its last part: u0, v0 [m], r0 [rad], */
+                                /*          ex, ey, gxy [-]                                     */
     double szz;                 /* Pa       stress out of the plane, carried as well            */
     double out_of_plane;        /* -        szz grows by this times the growth of sx + sy;      */
                                 /*          0: plane stress                                     */
@@ -122,9 +125,10 @@ typedef struct { double K[6][6], F[6]; } bbm_submatrix;
 
 typedef struct {
     double omega;               /* -        relaxation factor of SSOR, in (0, 2)                */
-    double tolerance;           /* -        the iteration ends when sqrt(r.M^-1 r) is below     */
-                                /*          this share of its first value; bbm_solve lowers it  */
-                                /*          where F holds springs that close a gap              */
+    double tolerance;           /* -        at most 1e-6: the iteration ends when               */
+                                /*          sqrt(r.M^-1 r) is below this share of its first     */
+                                /*          value; bbm_solve lowers it where F holds springs    */
+                                /*          that close a gap                                    */
     int    iterations;          /* at most, in each connected component of K                    */
     const bbm_method *method;   /* NULL: the paper's                                            */
 } bbm_pcg;
@@ -143,7 +147,9 @@ typedef enum { BBM_OPEN, BBM_LOCK, BBM_SLIDE } bbm_contact_state;   /* the figur
 enum { BBM_DETECT, BBM_ASSEMBLE, BBM_PRECONDITION, BBM_ITERATE, BBM_PHASES };
 
 /* Defaults: one step of statics, tolerance 0, alpha 100, p_n 1e9, p_s 4e8, faces 1, omega 1, a pcg
- * tolerance of 1e-10, 100000 iterations; all else 0. Reasons for some: doc/paper.md, 4.1. */
+ * tolerance of 1e-10, 100000 iterations; all else 0. Reasons for some: doc/paper.md, 4.1. bbm_step
+ * refuses what is out of range. Between steps all may change; but in dynamics a stiffness that
+ * grows makes energy, and the steps after it may fail for that. */
 typedef struct {
     double dt;                  /* s        time step; INFINITY: statics, without inertia       */
     int    steps;               /* in statics: iterations of Newton-Raphson                     */
@@ -153,7 +159,7 @@ typedef struct {
     double alpha;               /* -        factor of the bonding stiffness, (4), (29)          */
     double gravity[2];          /* m/s^2    */
     double p_n, p_s;            /* N/m      normal and shear stiffness of a contact             */
-    double friction;            /* degree   friction angle                                      */
+    double friction;            /* degree   friction angle, less than 90                        */
     double round;               /* m        of corners, at most a quarter of the shorter side:  */
                                 /*          a lower ledge is no obstacle; 0: sharp; -1: 2e-3 of */
                                 /*          the shorter side                                    */
@@ -165,7 +171,7 @@ typedef struct {
 
 typedef struct {                /* what the last step did                                       */
     int    step;                /* steps done                                                   */
-    double t;                   /* s        time at their end; statics takes none                */
+    double t;                   /* s        time so far; statics takes none                     */
     double change;              /* -        (71) asks that this is at most the tolerance        */
     bbm_pcg_info pcg;
     int    passes;              /* solutions of the open-close iteration                        */
@@ -186,7 +192,8 @@ struct bbm_model {
     bbm_vertex    *vertex;      /* [vertices], element by element                               */
     bbm_line_load *line_load;   /* [line_loads]                                                 */
     bbm_material  *material;    /* [materials]                                                  */
-    double origin[2];           /* m        0, or near a model that is far from (0, 0)          */
+    double origin[2];           /* m        by bbm_add_element: 0, or near a model that is far  */
+                                /*          from (0, 0)                                         */
     /* --- made by bbm_prepare --- */
     int is_prepared;            /* 0 again when something is added                              */
     int bonds, edges, gaps, contacts;
@@ -229,8 +236,10 @@ typedef struct {                /* at a grid point                              
 
 bbm_status  bbm_run(bbm_model *m);                          /* par.steps more steps             */
 bbm_status  bbm_step(bbm_model *m);                         /* one step, Fig. 8                 */
+/* A step that fails leaves the model as it was. Where it was cut into parts, those before the one
+ * that failed are done. */
 /* The mean over the elements that meet at a node of a prepared model: those of one block, or of all
- * (-1). Without such elements BBM_BAD_INDEX and no message. */
+ * (-1). Without such elements, or if it is not prepared, BBM_BAD_INDEX without a message. */
 bbm_status  bbm_nodal_result(const bbm_model *m, int node, int block, bbm_result *r);
 void        bbm_displacement(const bbm_element *e, const double D[6], double x, double y,
                              double u[2]);                  /* (1)                              */
@@ -238,11 +247,11 @@ double      bbm_mises(const double stress[3], double szz);
 const char *bbm_status_text(bbm_status s);
 const char *bbm_message(const bbm_model *m);                /* about the last error             */
 
-/* --------------------------------------------------------------------------- 2. build a model
- * Once a bbm_add or bbm_fix has failed, the later calls do nothing and return its status. So a
- * program may check bbm_prepare alone. What is added after it needs it again, but for fixed nodes
- * and loads of nodes; after the first step nothing else is added. The index of what was added goes
- * through the last pointer, which may be NULL. */
+/* --------------------------------------------------------------------------- 2. build a model Once
+ * a bbm_add or bbm_fix has failed, the later calls, bbm_prepare and bbm_step do nothing and return
+ * its status. So a program may check bbm_prepare alone. What is added after it needs it again, but
+ * for fixed nodes and loads of nodes; after the first step nothing else is added. The index of what
+ * was added goes through the last pointer, which may be NULL. */
 
 bbm_status bbm_model_new(bbm_model **m);
 void       bbm_model_free(bbm_model *m);                    /* takes NULL                       */
@@ -250,19 +259,19 @@ bbm_status bbm_add_material(bbm_model *m, const bbm_material *material, int *ind
 bbm_status bbm_add_node(bbm_model *m, double x, double y, int *index);
 bbm_status bbm_add_element(bbm_model *m, int block, int material, int n, const int node[],
                            int *index);                     /* the nodes in either sense        */
-bbm_status bbm_fix_node(bbm_model *m, int node, int directions, double u, double v);    /* wall */
+bbm_status bbm_fix_node(bbm_model *m, int node, int directions, double u, double v);    /* W: m */
 bbm_status bbm_add_load(bbm_model *m, int node, double fx, double fy);      /* N, adds up       */
 bbm_status bbm_add_line_load(bbm_model *m, int node1, int node2, double fx, double fy); /* N/m  */
 bbm_status bbm_add_varying_line_load(bbm_model *m, int node1, int node2, bbm_field *f,
                                      const void *context);
 bbm_status bbm_prepare(bbm_model *m);                       /* checks, finds the edges (2.2)    */
 
-/* ---------------------------------------------------------------- 3. single formulas, each alone
- * A submatrix function adds to what it is given. Mass and (4) take A0, which the caller sets. For
- * bonds and contacts see base/base.h. */
+/* ---------------------------------------------------------------- 3. single formulas, each alone A
+ * submatrix function adds to what it is given. vertex[]: those of the element alone. Mass and (4)
+ * take A0, which the caller sets. For bonds and contacts see base/base.h. */
 
 /* 2.1, 2.2 */
-void   bbm_element_geometry(bbm_element *e, const bbm_vertex vertex[]);         /* n vertices   */
+void   bbm_element_geometry(bbm_element *e, const bbm_vertex vertex[]); /* m->vertex + e->first */
 void   bbm_mode_matrix(const bbm_element *e, double x, double y, double T[2][6]);       /* (2)  */
 double bbm_bonding_stiffness(double alpha, const bbm_element *i, const bbm_element *j); /* (4)  */
 /* 3.1, 3.2 */
@@ -280,7 +289,7 @@ void   bbm_varying_load_submatrix(const bbm_element *e, const bbm_vertex *a, con
 void   bbm_constant_load_submatrix(const bbm_element *e, const bbm_vertex *a, const bbm_vertex *b,
                                    const double f[2], double F[6]);             /* (43)         */
 void   bbm_varying_volume_submatrix(const bbm_element *e, const bbm_vertex vertex[], bbm_field *f,
-                                    const void *context, double F[6]);          /* (46)         */
+                                    const void *context, double F[6]);  /* (46), f up to linear */
 void   bbm_volume_submatrix(const bbm_element *e, const double f[2], double F[6]);      /* (47) */
 void   bbm_gravity_submatrix(const bbm_element *e, const double g[2], double F[6]);     /* (47) */
 

@@ -122,7 +122,8 @@ typedef struct {                /* what the detection and the open-close iterati
     int    closings;            /* how often it has closed in the step                          */
     int    unsettled;           /* the last pass has changed its state or its friction          */
     /* --- a hook --- */
-    double jump[2];             /* N        what a jump of velocities adds to N and T           */
+    double jump[2];             /* N        what a jump of velocities adds to N and T, which do */
+                                /*          not have it, also where it has opened               */
 } bbm_trial;
 
 struct bbm_contact {            /* vertex P1 of one block against an edge P2 P3 of another      */
@@ -139,10 +140,11 @@ struct bbm_contact {            /* vertex P1 of one block against an edge P2 P3 
     double anchor;              /* -        where P0 is: P0 = P3 + anchor (P2 - P3)             */
     double slip;                /* m        how far it has slid in all steps since it closed    */
     /* --- beyond the paper; carried, too --- */
-    double rest;                /* m        d_n at which the normal spring has no force; in the */
-                                /*          paper 0. With bbm_motion a contact that closes with */
-                                /*          P1 inside starts unloaded: then it is negative, and */
-                                /*          a hook may bring it back to 0 in time               */
+    double rest;                /* m        d_n at which the normal spring has no force, after  */
+                                /*          a hit in the next step; in the paper 0. With        */
+                                /*          bbm_motion a contact that closes with P1 inside     */
+                                /*          starts unloaded: then it is negative, and a hook    */
+                                /*          may bring it back to 0 in time                      */
     double area;                /* m^2      its share of an unbroken joint, or 0                */
     int    inside;              /* it is open, but P1 is inside since it was closed             */
     int    hit;                 /* a hook has given it an impulse in place of its spring's; 2:  */

@@ -67,10 +67,12 @@ void bbm_model_free(bbm_model *m)
 #define REFUSE(m, ...) ((m)->status = (m)->status ? (m)->status : bbm_fail(m, __VA_ARGS__))
 
 /* Puts a copy of an entry at the end of an array of the model, which is to be prepared anew, counts
- * it, and gives its index. */
+ * it, and gives its index. One that has made a step stays as it is. */
 #define APPEND(m, array, count, entry, index) \
-    ((m)->is_prepared = 0, (m)->status = (m)->status ? (m)->status : \
-     bbm_append(m, (void **)&(array), &(count), sizeof *(array), entry, index))
+    ((m)->info.step > 0 ? bbm_fail(m, BBM_BAD_PARAMETER, COMPLETE) : \
+     ((m)->is_prepared = 0, (m)->status = (m)->status ? (m)->status : \
+      bbm_append(m, (void **)&(array), &(count), sizeof *(array), entry, index)))
+#define COMPLETE "a model that has made a step takes no more"
 
 bbm_status bbm_add_material(bbm_model *m, const bbm_material *a, int *index)
 {
@@ -144,8 +146,9 @@ bbm_status bbm_add_element(bbm_model *m, int block, int material, int n, const i
         const int at = node[area > 0 ? i : n - 1 - i];
         const bbm_vertex v = { .node = at, .element = e, .x = m->node[at].x - m->origin[0],
                                .y = m->node[at].y - m->origin[1] };
-        if (APPEND(m, m->vertex, m->vertices, &v, NULL))
-            return m->status;
+        const bbm_status status = APPEND(m, m->vertex, m->vertices, &v, NULL);
+        if (status)
+            return status;
     }
     bbm_element new = { .block = block, .material = m->material[material], .first = first, .n = n };
     bbm_element_geometry(&new, &m->vertex[first]);
@@ -341,7 +344,7 @@ bbm_status bbm_prepare(bbm_model *m)
     if (status)
         return status;
     if (m->info.step > 0)
-        return bbm_fail(m, BBM_BAD_PARAMETER, "a model that has made a step takes no more");
+        return bbm_fail(m, BBM_BAD_PARAMETER, COMPLETE);
     free_prepared(m);
     if (m->elements == 0)
         return bbm_fail(m, BBM_NO_ELEMENT, "%d nodes", m->nodes);

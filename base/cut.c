@@ -149,6 +149,7 @@ bbm_status bbm_check_step(bbm_model *m)
         { "p_n", p->p_n, over, most, "more than 0" },
         { "p_s", p->p_s, over, most, "more than 0" },
         { "friction", p->friction, 0, nextafter(90, 0), "0 to less than 90 degrees" },
+        { "round", p->round, -1, most, "0 or more, or -1" },
         { "pcg.omega", p->pcg.omega, over, nextafter(2, 0), "more than 0, less than 2" },
         { "pcg.tolerance", p->pcg.tolerance, over, 1e-6, "more than 0, at most 1e-6" },
         { "pcg.iterations", p->pcg.iterations, 1, most, "1 or more" },

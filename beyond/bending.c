@@ -257,17 +257,19 @@ void bbm_shared_vectors(const bbm_model *m, const bbm_contact *c, double r, bbm_
 }
 
 /* The directions in which the edge of a quadrilateral from vertex v on is held: those of both its
- * ends. Held at its vertices, such an edge locks like a bond; but not that of an element without
- * bonds, which never bends. Where bonds may break, to change how it is held would make energy. */
+ * ends. Held at its vertices, such an edge locks like a bond; but not that of an element that has
+ * never had bonds, for it does not bend. What has lost its last bond is held as before, for to
+ * change that would make energy. */
 static int held_edge(const bbm_model *m, const bbm_element *e, int v)
 {
     const int n = m->vertex[v].node, next = m->vertex[bbm_next_vertex(e, v)].node;
     const bbm_support *s = m->beyond->support;
     const int caught = m->is_prepared ? s[n].caught | s[next].caught : 0;
-    int bonded = m->beyond->bond_tension > 0;
+    int bonded = 0;
 
     for (int k = e->first; k < e->first + e->n; k++)
-        bonded |= m->vertex[k].edge < 0;
+        bonded |= m->vertex[k].edge < 0
+               || (m->is_prepared && m->vertex[k].edge >= m->beyond->edges);
     return m->beyond->bonding == BBM_VERTICES || e->n != 4 || !bonded
          ? 0 : m->node[n].held & m->node[next].held & ~caught;
 }

@@ -121,6 +121,8 @@ struct bbm_beyond {
     bbm_vertex *end_vertex;     /* [vertices]                                                   */
     bbm_crack *crack, *kept;    /* [bonds]  crack.c: of the step in hand; of the last one       */
     double *best;               /* [nodes]  scratch; in a list 1: cracks end there              */
+    int edges;                  /*          of bodies as they were prepared; behind them sides  */
+                                /*          of cracks                                           */
     int breaks;                 /*          in how many passes of the step bonds broke          */
     int parts;                  /*          whether bonds broke in the last step                */
     int loose;                  /*          an element of a piece that came off in statics and  */
@@ -149,7 +151,10 @@ struct bbm_beyond {
     double made;                /* -        what the step in hand has, as in `gain`             */
 };
 
-bbm_status bbm_beyond_new(bbm_model **m);               /* bbm_model_new, with all of it        */
+/* As bbm_model_new, but with round -1, two levels and no restitution. A node that bbm_fix_node
+ * holds after a step is held where it is then, whatever u and v, and bbm_move_support counts from
+ * there. */
+bbm_status bbm_beyond_new(bbm_model **m);
 
 /* coarse.c: two levels, for pcg.method */
 #define BBM_PLACES (1LL << 30)  /* of a component */
@@ -281,7 +286,7 @@ bbm_status bbm_check_equilibrium(bbm_model *m);         /* of the solution in ha
 
 /* stability.c */
 double     bbm_tension_stiffness(const bbm_model *m, int i);
-bbm_status bbm_find_stability(bbm_model *m, int *stable);       /* of a static answer           */
+bbm_status bbm_find_stability(bbm_model *m, int *stable);   /* after a static step with BBM_OK  */
 
 /* overlap.c */
 typedef struct {                /* elements i < j that overlap                                  */

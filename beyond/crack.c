@@ -469,6 +469,7 @@ bbm_status bbm_begin_cracks(bbm_model *m)
                     : y->rotation == BBM_LINEAR && isfinite(m->par.dt) ? "linear rotation: its "
                       "contacts throw out corners that come off inside another piece" : NULL;
 
+    y->edges = m->edges;
     y->kept = y->crack + m->bonds;
     for (int b = 0; b < m->bonds; b++)
         y->kept[b].bond = b;

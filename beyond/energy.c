@@ -59,11 +59,11 @@ static bbm_energy energy_of(const bbm_model *m, int i, int when)
 
 static double sum_of(bbm_energy e) { return e.kinetic + e.elastic + e.springs; }
 
-/* The energies after the last step; none before bbm_prepare. */
+/* The energies after the last step; none of a model that is not prepared. */
 void bbm_energies(const bbm_model *m, bbm_energy *energy)
 {
     *energy = (bbm_energy){ 0, 0, 0 };
-    for (int i = 0; i < m->elements && m->K; i++) {
+    for (int i = 0; i < m->elements && m->is_prepared; i++) {
         const bbm_energy e = energy_of(m, i, 0);
         energy->kinetic += e.kinetic;
         energy->elastic += e.elastic;

@@ -407,7 +407,7 @@ static bbm_status choose(bbm_model *m, bbm_model *step, bbm_model *end)
 
     for (int c = 0; c < m->elements; c++)
         m->beyond->account[c].asked = 1;
-    for (int tries = 1; again; tries++) {
+    for (int tries = 1; again && status != BBM_NO_MEMORY; tries++) {
         *end = bbm_end_of_step(step);
         status = solve(m, step, end);
         take(m, end);

@@ -76,7 +76,7 @@ bbm_status bbm_add_joint(bbm_model *m, const int block[2], double friction, doub
                              "tension = %g, expected finite ones, less than 90 degrees", friction,
                              cohesion, tension);
     const bbm_joint joint = { { block[0], block[1] }, friction, cohesion, tension };
-    return m->status ? m->status
+    return m->status = m->status ? m->status
          : bbm_append(m, (void **)&b->joint, &b->joints, sizeof joint, &joint, NULL);
 }
 
