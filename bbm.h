@@ -247,11 +247,11 @@ double      bbm_mises(const double stress[3], double szz);
 const char *bbm_status_text(bbm_status s);
 const char *bbm_message(const bbm_model *m);                /* about the last error             */
 
-/* --------------------------------------------------------------------------- 2. build a model Once
- * a bbm_add or bbm_fix has failed, the later calls, bbm_prepare and bbm_step do nothing and return
- * its status. So a program may check bbm_prepare alone. What is added after it needs it again, but
- * for fixed nodes and loads of nodes; after the first step nothing else is added. The index of what
- * was added goes through the last pointer, which may be NULL. */
+/* --------------------------------------------------------------------------- 2. build a model
+ * Once a bbm_add or bbm_fix has failed, the later calls, bbm_prepare and bbm_step do nothing and
+ * return its status. So a program may check bbm_prepare alone. What is added after it needs it
+ * again, but for fixed nodes and loads of nodes; after the first step nothing else is added. The
+ * index of what was added goes through the last pointer, which may be NULL. */
 
 bbm_status bbm_model_new(bbm_model **m);
 void       bbm_model_free(bbm_model *m);                    /* takes NULL                       */
@@ -266,8 +266,8 @@ bbm_status bbm_add_varying_line_load(bbm_model *m, int node1, int node2, bbm_fie
                                      const void *context);
 bbm_status bbm_prepare(bbm_model *m);                       /* checks, finds the edges (2.2)    */
 
-/* ---------------------------------------------------------------- 3. single formulas, each alone A
- * submatrix function adds to what it is given. vertex[]: those of the element alone. Mass and (4)
+/* ---------------------------------------------------------------- 3. single formulas, each alone
+ * A submatrix function adds to what it is given. vertex[]: those of the element alone. Mass and (4)
  * take A0, which the caller sets. For bonds and contacts see base/base.h. */
 
 /* 2.1, 2.2 */
