@@ -393,6 +393,7 @@ static const struct { size_t offset; double value; const char *name; } PARAMETER
     PARAMETER(p_n, 0), PARAMETER(p_n, INFINITY), PARAMETER(p_n, NAN),
     PARAMETER(p_s, 0), PARAMETER(p_s, INFINITY), PARAMETER(p_s, NAN),
     PARAMETER(friction, -1), PARAMETER(friction, 90), PARAMETER(friction, NAN),
+    PARAMETER(round, -2), PARAMETER(round, INFINITY), PARAMETER(round, NAN),
     PARAMETER(pcg.omega, 0), PARAMETER(pcg.omega, 2), PARAMETER(pcg.omega, NAN),
     PARAMETER(pcg.tolerance, 0), PARAMETER(pcg.tolerance, 2e-6), PARAMETER(pcg.tolerance, NAN),
 }, SETTINGS[] = {

@@ -324,6 +324,18 @@ START_TEST(a_block_hangs_in_statics_on_bolts_that_let_it_swing)
 }
 END_TEST
 
+/* A quadrilateral without bonds does not bend, and both its feet are held, whatever bonds may bear. */
+START_TEST(strength_of_bonds_changes_nothing_where_there_is_none)
+{
+    for (int k = 0; k < 2; k++)
+        ck_assert_int_eq(run_printed(k ? "strong" : "plain", "material rock E 1e9 nu 0.2 density 2500\n"
+            "block a rock 0 0 1 0 1 1 0 1\nfix at 0 0\nfix at 1 0\nload at 0 1 0 -1e5\nload at 1 1 0 -1e5\n%sstatic\n"
+            "monitor foot at 1 0\nmonitor top at 0 1\n", k ? "bond tension 1e9 cohesion 1e9\n" : ""), 0);
+    ck_relative(cell("strong", "history.csv", "", "top_v"), cell("plain", "history.csv", "", "top_v"), 1e-12);
+    ck_near(cell("strong", "history.csv", "", "foot_u"), cell("plain", "history.csv", "", "foot_u"), 1e-4, 1e-9);
+}
+END_TEST
+
 /* A cantilever of two quadrilaterals breaks off in the first steps. Its other half, whose side is held, has no bond left then, and
  * is held as before. */
 START_TEST(a_held_quadrilateral_that_loses_its_last_bond_makes_no_energy)
@@ -1742,6 +1754,7 @@ static void add_loads_and_joints(TCase *t)
     tcase_add_loop_test(t, statics_names_what_falls_when_its_bolt_breaks, 0, 2);
     tcase_add_test(t, a_block_hangs_in_statics_on_bolts_that_let_it_swing);
     tcase_add_test(t, a_held_quadrilateral_that_loses_its_last_bond_makes_no_energy);
+    tcase_add_test(t, strength_of_bonds_changes_nothing_where_there_is_none);
     tcase_add_loop_test(t, a_bolt_holds_a_block_on_its_slope, 0, 4);
     tcase_add_loop_test(t, a_bolt_ends_anywhere_in_a_block, 0, 2);
     tcase_add_test(t, contacts_and_reactions_carry_the_weight);
