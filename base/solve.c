@@ -95,7 +95,9 @@ void bbm_matrix_measure(bbm_matrix *K, const double *F)
     }
 }
 
-/* Solves one component. If its iteration fails, its rows of the solution D are the last x. */
+/* Solves one component. If its iteration fails, its rows of the solution D are the last x. What is
+ * held is solved once more by itself: the force that moves a support is so large that the share of
+ * it that the iteration leaves may be more than the support bears. */
 static bbm_status solve_component(bbm_matrix *K, const double *F, double *D, double forces,
                                   bbm_pcg pcg, bbm_pcg_info *info)
 {
@@ -117,11 +119,15 @@ static bbm_status solve_component(bbm_matrix *K, const double *F, double *D, dou
     bbm_multiply(K, K->x, K->q);
     for (int i = 6 * K->from; i < 6 * K->to; i++) {
         const int row = 6 * K->caller[i / 6] + i % 6;
-        const double f = F[row] / scale, r = f - K->q[i];
+        const double f = F[row] / scale;
+        K->r[i] = f - K->q[i];
         D[row] = scale * K->x[i];
-        rr += r * r;
+        rr += K->r[i] * K->r[i];
         ff += f * f;
     }
+    for (int i = K->from; i < K->to; i++)
+        for (int a = 0; a < 36 && K->body[K->caller[i]] < 0; a++)
+            D[6 * K->caller[i] + a / 6] += scale * K->inverse[i][a / 6][a % 6] * K->r[6 * i + a % 6];
     info->residual = sqrt(rr / ff);
     return status;
 }

@@ -1025,6 +1025,20 @@ START_TEST(a_slow_press_bears_what_its_springs_do)
 }
 END_TEST
 
+/* A table of 4e15 Pa under springs of 4e12 N/m: to move it takes 1e9 times as much as it bears. */
+START_TEST(what_moves_a_stiff_support_is_not_in_its_force)
+{
+    ck_assert_int_eq(run_text("stiff", "material rigid E 4e15 nu 0.2 density 1000\nblock T rigid -3 -1 3 -1 3 0 -3 0\n"
+        "fixblock T\nfix set T x by -0.0128 y by 0.004\nblock B rigid 0 0 0.25 0 0.25 1 0 1\n"
+        "contact kn 4e12 ks 1.6e12 friction 31 restitution 0.5\ndynamic dt 0.001 steps 1\n"
+        "monitor j joint T B\nmonitor s support set T\n"), 0);
+    const double x = cell("stiff", "history.csv", "1,", "j_fx"), y = cell("stiff", "history.csv", "1,", "j_fy");
+    ck_near(cell("stiff", "history.csv", "1,", "s_fx"), -x, y, 1e-4);
+    ck_near(cell("stiff", "history.csv", "1,", "s_fy"), -y, y, 1e-4);
+    ck_assert_double_gt(fabs(y), 1e5);
+}
+END_TEST
+
 /* What a block that hits obliquely has lost and what it has got, its contact gave it, and stands in the table
  * of the step. A stone far away that rests bears its weight in that step, too. */
 START_TEST(the_impulse_of_a_hit_is_in_the_tables_and_no_other)
@@ -1784,6 +1798,7 @@ static void add_what_the_file_says(TCase *t)
     tcase_add_test(t, a_grid_point_that_passes_a_seam_doubles_no_force);
     tcase_add_test(t, what_slides_over_low_ledges_with_a_restitution_does_not_sink);
     tcase_add_test(t, the_impulse_of_a_hit_is_in_the_tables_and_no_other);
+    tcase_add_test(t, what_moves_a_stiff_support_is_not_in_its_force);
     tcase_add_loop_test(t, a_slow_press_bears_what_its_springs_do, 0, 3);
     tcase_add_loop_test(t, a_column_between_a_floor_and_a_piston_may_stand_at_any_angle, 0, 8);
     tcase_add_test(t, the_hits_of_a_step_that_is_tried_again_count_once);
