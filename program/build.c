@@ -346,6 +346,12 @@ static void choose_there(model_reader *r, const selection *w)
     }
 }
 
+/* Whether something else has the name of a set of these dimensions, also a block that it is not. */
+static int is_ambiguous(int dimensions, int is_block)
+{
+    return dimensions & (dimensions - 1) || (is_block && dimensions != 1 << 2);
+}
+
 /* The words of WHERE; a set may be all nodes of a block. */
 static int read_selection(model_reader *r, selection *w)
 {
@@ -370,13 +376,14 @@ static int read_selection(model_reader *r, selection *w)
     if (!model_numbers(r, kind[w->kind].numbers, w->x))
         return 0;
     const model_table *of = w->kind == BY_NODE ? &r->node_of : &r->set_of;
+    const int is_block = model_look(r) && model_find(&r->block_of, model_look(r)) >= 0;
     if (kind[w->kind].numbers == 0 && (w->found = model_known(r, of)) < 0)
         return 0;
     if (w->kind == BY_SET && w->found >= r->sets)
         w->block = w->found - r->sets;
-    else if (w->kind == BY_SET && r->set[w->found].dimensions & (r->set[w->found].dimensions - 1))
-        return model_blame(r, "the mesh has several groups of that name, one of surfaces and one "
-                              "of curves or points, expected one");
+    else if (w->kind == BY_SET && is_ambiguous(r->set[w->found].dimensions, is_block))
+        return model_blame(r, "several things have that name, of blocks, sets and the mesh's "
+                              "groups of surfaces, curves and points, expected one");
     if (w->kind == BY_BOX && !(w->x[0] <= w->x[2] && w->x[1] <= w->x[3]))
         return model_blame(r, "a box from %g, %g to %g, %g, expected: box XMIN YMIN XMAX YMAX",
                            w->x[0], w->x[1], w->x[2], w->x[3]);

@@ -17,7 +17,8 @@
  *
  *     stage NAME ... end          the statements between get the number of the stage
  *
- * The `let`s outside of `repeat` are read first, so that statements above them may use them. */
+ * The `let`s above the first `repeat` are read first, so that statements above them may use them.
+ * Those behind it may use what it has changed. */
 #include <ctype.h>
 #include <limits.h>
 
@@ -70,8 +71,9 @@ static int blame_name(model_reader *r, const char *name)
 {
     const int n = (int)strspn(name, MODEL_NAME);
 
-    return model_blame(r, "no `let`%s says what $%.*s is%s%s",
-                       strcmp(r->s->name, "let") == 0 ? " above" : "", n < 60 ? n : 60, name,
+    return model_blame(r, "no `let` above%s says what $%.*s is%s%s",
+                       strcmp(r->s->name, "let") == 0 ? "" : " or before the first `repeat`",
+                       n < 60 ? n : 60, name,
                        r->let_of.count ? ", expected one such as $" : "",
                        model_nearest_of(r, &r->let_of, name));
 }
@@ -391,8 +393,8 @@ static int repeat(model_reader *r, int from, int end)
     return 1;
 }
 
-/* The statements from .. to-1; the `let`s of the file have been read before. An `end` is that of a
- * stage. */
+/* The statements from .. to-1; the `let`s above the first `repeat` have been read before. An `end` is
+ * that of a stage. */
 static int walk(model_reader *r, int from, int to)
 {
     for (int k = from; k < to; k++) {
@@ -403,7 +405,7 @@ static int walk(model_reader *r, int from, int to)
                               s->name);
         r->stage = is(s, "stage") ? ++r->p->stages : r->stage;
         if (is(s, "repeat") ? !repeat(r, k, end)
-            : is(s, "let") ? r->round && (!add_statement(r, s) || !read_let(r))
+            : is(s, "let") ? (r->round || (r->loop && k > r->loop)) && (!add_statement(r, s) || !read_let(r))
             : !add_statement(r, s) || (is(s, "end") && !model_at_end(r)))
             return 0;
         r->stage = is(s, "end") ? 0 : r->stage;
@@ -412,7 +414,7 @@ static int walk(model_reader *r, int from, int to)
     return 1;
 }
 
-/* Reads each `let` outside of `repeat` and `stage`, which have their `end`. */
+/* Reads each `let` above the first `repeat`. Each `repeat` and `stage` has its `end`. */
 static int read_lets(model_reader *r)
 {
     for (int k = 0; k < r->cuts; k++) {
@@ -422,8 +424,9 @@ static int read_lets(model_reader *r)
             return model_fail(r, s->at, "%s without its `end`, expected: %s", s->name, s->form);
         if (is(s, "end"))
             return model_fail(r, s->at, "this `end` closes no `repeat` and no `stage`");
-        if (is(s, "let") && (!add_statement(r, s) || !read_let(r)))
+        if (is(s, "let") && !r->loop && (!add_statement(r, s) || !read_let(r)))
             return 0;
+        r->loop = r->loop == 0 && is(s, "repeat") ? end : r->loop;
         k = end;
     }
     return 1;
@@ -444,4 +447,4 @@ static int check_given(model_reader *r)
     return 1;
 }
 
-int model_expand(model_reader *r) { return read_lets(r) && check_given(r) && walk(r, 0, r->cuts); }
+int model_expand(model_reader *r) { return read_lets(r) && walk(r, 0, r->cuts) && check_given(r); }
