@@ -102,18 +102,6 @@ void bbm_add_submatrices(bbm_model *m, int i, int j, bbm_submatrices *s)
         m->F[6 * j + a] += s->Fj[a];
 }
 
-static void assemble_element(bbm_model *m, int i)
-{
-    bbm_submatrix s = { { { 0 } }, { 0 } };
-
-    bbm_elastic_submatrix(&m->element[i], &s);
-    if (bbm_has_inertia(m, i))
-        bbm_inertia_submatrix(&m->element[i], m->h, &s);
-    bbm_matrix_add(m->K, i, i, s.K);
-    for (int a = 0; a < 6; a++)
-        m->F[6 * i + a] += s.F[a];
-}
-
 void bbm_assemble_gap(bbm_model *m, const bbm_gap *g)
 {
     bbm_submatrices s = { .Fi = { 0 } };
@@ -133,8 +121,15 @@ void bbm_assemble(bbm_model *m)
     bbm_matrix_clear(m->K);
     gather_loads(m);                                /* a hook's load may depend on D: part of K */
     memcpy(m->F, m->load, 6 * (size_t)m->elements * sizeof *m->F);
-    for (int i = 0; i < m->elements; i++)
-        assemble_element(m, i);
+    for (int i = 0; i < m->elements; i++) {
+        bbm_submatrix s = { { { 0 } }, { 0 } };
+        bbm_elastic_submatrix(&m->element[i], &s);
+        if (bbm_has_inertia(m, i))
+            bbm_inertia_submatrix(&m->element[i], m->h, &s);
+        bbm_matrix_add(m->K, i, i, s.K);
+        for (int a = 0; a < 6; a++)
+            m->F[6 * i + a] += s.F[a];
+    }
     for (; g < m->gaps && m->gap[g].j >= 0; g++)    /* bonds */
         bbm_assemble_gap(m, &m->gap[g]);
     bbm_matrix_measure(m->K, m->F);
