@@ -54,14 +54,6 @@ static void begin_bodies(bbm_model *m)
     }
 }
 
-/* A force on element i that should not be, or is missing. */
-static void add_breach(bbm_model *m, int i, double force)
-{
-    bbm_balance *b = &m->beyond->balance[m->beyond->body[i]];
-
-    b->breach = fmax(b->breach, force);
-}
-
 /* Adds a force on element i, F as on the right of (5); returns its moment about the origin. In
  * dynamics its lever is that of the middle of the step, and F[2] is its moment times
  * tan(r/2)/(r/2), see rotation.c. `counts`: 1, or 0 for bonds. k: the stiffness that makes it of
@@ -109,8 +101,9 @@ static void add_gap(bbm_model *m, const bbm_gap *g)
         return;
     moment += add_force(m, g->j, Fj, counts, k);
     if (counts && bbm_motion_of(m)) {
-        add_breach(m, g->i, fabs(moment) / b->size);
-        add_breach(m, g->j, fabs(moment) / m->beyond->balance[body[g->j]].size);
+        bbm_balance *other = &m->beyond->balance[body[g->j]];
+        b->breach = fmax(b->breach, fabs(moment) / b->size);
+        other->breach = fmax(other->breach, fabs(moment) / other->size);
     }
 }
 
@@ -148,9 +141,10 @@ static void add_contact(bbm_model *m, const bbm_contact *c)
     for (int i = 0; i < c->parts; i++) {
         const int e = c->element[i];
         const double *D = &m->D[6 * c->element[i == 0]];    /* of the other side                */
+        bbm_balance *b = &m->beyond->balance[m->beyond->body[e]];
         add_force(m, e, F[i], 1, k);
-        add_breach(m, e, breach);
-        m->beyond->balance[m->beyond->body[e]].rounding += BBM_ROUNDING * k * hypot(D[0], D[1]);
+        b->breach = fmax(b->breach, breach);
+        b->rounding += BBM_ROUNDING * k * hypot(D[0], D[1]);
     }
 }
 
