@@ -234,16 +234,19 @@ static double turn_of(const bbm_model *m, int e)
     return atan2(t.x * y - t.y * x, t.length + t.x * x + t.y * y);
 }
 
+/* How far an edge or its element turns by D. */
+static double turn_at(const bbm_model *m, int e)
+{
+    return fmax(fabs(m->D[6 * m->edge[e].element + 2]), fabs(turn_of(m, e)));
+}
+
 /* Whether the solution moves further than the detection has foreseen. */
 int bbm_moved_too_far(const bbm_model *m)
 {
-    for (int e = 0; e < m->edges; e++) {
-        const int i = m->edge[e].element;
-        const double turn = fmax(fabs(m->D[6 * i + 2]), fabs(turn_of(m, e)));
+    for (int e = 0; e < m->edges; e++)
         if (move_point(m, m->edge[e].a).far > reach_of(m, e)->travel
-            || turn > m->scratch->reach[i].turn)
+            || turn_at(m, e) > m->scratch->reach[m->edge[e].element].turn)
             return 1;
-    }
     return 0;
 }
 
@@ -254,14 +257,11 @@ static double foresee(bbm_model *m)
 {
     double most = 0;
 
-    for (int i = 0; i < m->elements; i++) {
-        reach *of = &m->scratch->reach[i];
-        of->depth_now = 0;
-        of->turn = 2 * fabs(m->D[6 * i + 2]) + PARALLEL / 2;
-    }
+    for (int i = 0; i < m->elements; i++)
+        m->scratch->reach[i].depth_now = m->scratch->reach[i].turn = 0;
     for (int e = 0; e < m->edges; e++) {
         reach *b = reach_of(m, e), *own = &m->scratch->reach[m->edge[e].element];
-        own->turn = fmax(own->turn, 2 * fabs(turn_of(m, e)) + PARALLEL / 2);
+        own->turn = fmax(own->turn, 2 * turn_at(m, e) + PARALLEL / 2);
         const double way = 1.1 * move_point(m, m->edge[e].a).far;
         b->travel = fmax(b->travel, way + b->depth + rounding_of(m, e) / 2);
         most = fmax(most, b->travel);
