@@ -372,10 +372,8 @@ static double common_depth(const bbm_model *m, int c, int e, int now)
  * may also have ended the last step inside, by as much as it moved. */
 static double start_depth(const bbm_model *m, int c, int e)
 {
-    const reach *i = reach_of(m, c), *j = reach_of(m, e);
-
     return 2 * common_depth(m, c, e, 0) + touch_between(m, c, e)
-         + (bbm_motion_of(m) ? 0 : i->travel + j->travel);
+         + (bbm_motion_of(m) ? 0 : reach_of(m, c)->travel + reach_of(m, e)->travel);
 }
 
 /* The same, or at the surface. Deeper no corner comes in: it would from behind the edge. */
