@@ -792,12 +792,12 @@ static void continue_contact(const bbm_model *m, pair p, bbm_contact *c)
 
     *c = old ? *old : (bbm_contact){ 0 };
     c->inside |= !old && f.d < -touch && f.beyond <= 0;
+    c->corner = p.corner;
+    c->edge = p.edge;
+    c->trial = (bbm_trial){ .time_left = 1, .N_of_friction = c->N, .d_n0 = f.d };
     c->trial.carried = old && old->corner == p.corner && old->edge == p.edge;
     c->trial.touches = m->contacts == 0 && m->info.step == 0 && m->info.t == 0
                     && fmax(fabs(f.d), f.beyond) <= touch;
-    c->corner = p.corner;
-    c->edge = p.edge;
-    c->trial.d_n0 = f.d;
     c->trial.was_closed = c->state != BBM_OPEN;
     c->trial.beyond_end = f.beyond > (m->edge[near].joined[near != p.edge] >= 0 ? seam : touch);
     for (int k = 0; k < 4; k++) {

@@ -56,10 +56,6 @@ static void begin_contact(const bbm_model *m, bbm_contact *c)
             c->element[c->parts++] = m->vertex[bbm_partner_of(m, P[k])].element;
     for (int k = 0; k < 4; k++)
         lines += c->trial.entrance[k] >= 0;
-    c->trial.time_left = 1;
-    c->trial.closings = 0;
-    c->trial.jump[0] = c->trial.jump[1] = 0;
-    c->trial.N_of_friction = c->N;
     if (c->trial.has_left)
         bbm_forget(c);
     c->strength = (bbm_strength){ .tan_phi = bbm_tangent(m->par.friction) };
