@@ -321,8 +321,7 @@ static bbm_status settle(bbm_model *m)
     copy_state(m, was, 0);
     from.element = (void *)was;
     from.vertex = (void *)(from.element + m->elements);
-    for (int k = 0; k < m->contacts; k++)
-        list[k] = m->contact[k];
+    memcpy(list, m->contact, (size_t)m->contacts * sizeof *list);
     m->beyond->reach = STRIDE;
     m->par.velocity_factor = 0;
     const bbm_status status = creep(m, &from);
