@@ -152,10 +152,8 @@ bbm_status bbm_beyond_new(bbm_model **out)
         return BBM_NO_MEMORY;
     }
     m->par.pcg.method = &bbm_two_level;
-    m->beyond->reach = INFINITY;
-    m->beyond->passed[0] = -1;
-    m->beyond->restitution = -1;
     m->par.round = -1;
+    *m->beyond = (bbm_beyond){ .reach = INFINITY, .restitution = -1, .passed = { -1 } };
     *m->hook = (bbm_hooks){
         .release = release,
         .check_polygon = bbm_check_polygon,
