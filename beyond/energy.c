@@ -73,7 +73,8 @@ void bbm_energies(const bbm_model *m, bbm_energy *energy)
 
 /* Notes at each element the energy of its springs, at the start (0) or the end of a step (1): of
  * bonds and fixed points as they are listed, and of contacts. A spring counts at one of its
- * elements; friction holds what its shear spring would, see bbm_store_contacts. */
+ * elements; friction holds what its shear spring would, see bbm_store_contacts. What is open has no
+ * N and no T. */
 void bbm_note_springs(bbm_model *m, int when)
 {
     bbm_account *a = m->beyond->account;
@@ -86,8 +87,7 @@ void bbm_note_springs(bbm_model *m, int when)
                     * (g->own.f[r] + g->W[r][0] * g->d0[0] + g->W[r][1] * g->d0[1]);
     for (const bbm_contact *c = m->scratch->contact; c < bbm_end_of_contacts(m); c++) {
         const double T = bbm_shear_force(c);
-        a[m->edge[c->corner].element].springs[when] += c->state == BBM_OPEN ? 0
-            : bbm_normal_energy(m, c->N) + T * T / (2 * m->par.p_s);
+        a[c->element[0]].springs[when] += bbm_normal_energy(m, c->N) + T * T / (2 * m->par.p_s);
     }
 }
 
