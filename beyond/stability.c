@@ -45,7 +45,6 @@ double bbm_tension_stiffness(const bbm_model *m, int i)
 bbm_status bbm_find_stability(bbm_model *m, int *stable)
 {
     bbm_pcg pcg = m->par.pcg;
-    bbm_pcg_info info;
     bbm_status status = bbm_begin_statics(m);
 
     for (int k = 0; k < m->scratch->contacts && !status; k++)
@@ -54,7 +53,7 @@ bbm_status bbm_find_stability(bbm_model *m, int *stable)
     if (!status) {
         bbm_assemble(m);
         memset(m->F, 0, 6 * (size_t)m->elements * sizeof *m->F);
-        status = bbm_solve(m->K, m->F, m->D, &pcg, &info);
+        status = bbm_solve(m->K, m->F, m->D, &pcg, &(bbm_pcg_info){ 0 });
     }
     for (int l = 0; l < m->beyond->edge_loads && !status; l++) {
         bbm_edge_load *load = &m->beyond->edge_load[l];
@@ -70,7 +69,7 @@ bbm_status bbm_find_stability(bbm_model *m, int *stable)
     }
     pcg.tolerance = NUDGED;
     if (!status)
-        status = bbm_solve(m->K, m->F, m->D, &pcg, &info);
+        status = bbm_solve(m->K, m->F, m->D, &pcg, &(bbm_pcg_info){ 0 });
     m->K->ready = 0;
     *stable = status != BBM_NOT_POSITIVE_DEFINITE;
     return *stable ? status : BBM_OK;
