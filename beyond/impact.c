@@ -414,12 +414,11 @@ static bbm_status choose(bbm_model *m, bbm_model *step, bbm_model *end)
         bbm_find_accounts(step, end);
         again = 0;
         for (bbm_account *a = m->beyond->account; a < m->beyond->account + m->elements; a++) {
-            const double less = a->asked - ldexp(a->gain / a->there, tries);
             const int fits = !a->unsettled && (a->jumps < 0 || a->gain <= most * a->there);
             if (fits || a->jumps == 0 || a->jumps == -2)
                 continue;
             a->jumps = a->jumps < 0 ? -2 : a->asked > 0 ? 1 : -1;
-            a->asked = a->unsettled ? 0 : fmax(0, less);
+            a->asked = a->unsettled ? 0 : fmax(0, a->asked - ldexp(a->gain / a->there, tries));
             again = 1;
         }
     }
