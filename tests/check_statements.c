@@ -1039,6 +1039,20 @@ START_TEST(what_moves_a_stiff_support_is_not_in_its_force)
 }
 END_TEST
 
+/* A stone flies into a wall of bricks. Its hit goes through all joints at once, and their states, changed
+ * together, do not settle. */
+START_TEST(a_wall_that_a_stone_hits_goes_on)
+{
+    static const double phi[] = { 20.81, 29.578 }, low[] = { 0.8755, 0.5 }, E[] = { 0.6, 0 };
+
+    ck_assert_int_eq(run_printed("wall", "material r E 1e9 nu 0.25 density 2500\nblock base r -5 -1 10 -1 10 0 -5 0\n"
+        "fixblock base\nrepeat j 0 3\nrepeat k 0 4\nlet x $(k + (j - 2*floor(j/2))/2)\nlet y $(0.4*j)\n"
+        "block w$k.$j r $x $y $(x+1) $y $(x+1) $(y+0.4) $x $(y+0.4)\nend\nend\n"
+        "block st r -2 %g -1 0.8064 -1 1.4 -2 1.4\nvelocity st 8 0\ngravity 0 -9.81\n"
+        "contact kn 1e9 friction %g restitution %g\ndynamic dt 0.002 steps 100\n", low[_i], phi[_i], E[_i]), 0);
+}
+END_TEST
+
 /* What a block that hits obliquely has lost and what it has got, its contact gave it, and stands in the table
  * of the step. A stone far away that rests bears its weight in that step, too. */
 START_TEST(the_impulse_of_a_hit_is_in_the_tables_and_no_other)
@@ -1798,6 +1812,7 @@ static void add_what_the_file_says(TCase *t)
     tcase_add_test(t, a_grid_point_that_passes_a_seam_doubles_no_force);
     tcase_add_test(t, what_slides_over_low_ledges_with_a_restitution_does_not_sink);
     tcase_add_test(t, the_impulse_of_a_hit_is_in_the_tables_and_no_other);
+    tcase_add_loop_test(t, a_wall_that_a_stone_hits_goes_on, 0, 2);
     tcase_add_test(t, what_moves_a_stiff_support_is_not_in_its_force);
     tcase_add_loop_test(t, a_slow_press_bears_what_its_springs_do, 0, 3);
     tcase_add_loop_test(t, a_column_between_a_floor_and_a_piston_may_stand_at_any_angle, 0, 8);
