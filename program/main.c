@@ -27,7 +27,7 @@ static const char usage[] =
     "  --find      bisects `let NAME` until its expectations change; writes no results\n"
     "  -o FOLDER   for the results; without it the model's name, here. Units: doc/tables.md\n"
     "  -m FILE.mtx matrix of the first solution (Matrix Market); right side, masses: .rhs, .mass\n"
-    "  -q          quiet: errors and warnings alone\n  -h, --version\n";
+    "  -q          quiet: only what is wrong or was asked for\n  -h, --version\n";
 
 static int complain(arguments *a, const char *what, const char *word)
 {

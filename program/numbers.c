@@ -71,9 +71,9 @@ static int blame_name(model_reader *r, const char *name)
 {
     const int n = (int)strspn(name, MODEL_NAME);
 
-    return model_blame(r, "no `let` above%s says what $%.*s is%s%s",
-                       strcmp(r->s->name, "let") == 0 ? "" : " or before the first `repeat`",
-                       n < 60 ? n : 60, name,
+    return model_blame(r, "no `let`%s says what $%.*s is%s%s",
+                       strcmp(r->s->name, "let") == 0 ? " above"
+                       : r->loop ? " above, or before the first `repeat`," : "", n < 60 ? n : 60, name,
                        r->let_of.count ? ", expected one such as $" : "",
                        model_nearest_of(r, &r->let_of, name));
 }

@@ -1246,7 +1246,7 @@ START_TEST(rounds_add_up_numbers_and_sets_and_keep_numbers_by_name)
                               "let s 0\nrepeat j 1 $i\nlet s $(s + j)\nend\nblock b$i rock $x $s $(x + 1) $s $(x + 1) $(s + 1)\n"
                               "set all add $(3*i - 2) $(3*i - 1)\nend\nrepeat i 1 $n\n"
                               "block c$i rock $(20 + w$i) 0 $(21 + $w$i) 0 $(20 + w$i) 1\nfixblock c$i\nend\n"
-                              "block last rock $(30 + x) 0 $(31 + x) 0 $(30 + x) 1\nfix set last\nfix set all\n"
+                              "let end $(30 + x)\nblock last rock $end 0 $(end + 1) 0 $end 1\nfix set last\nfix set all\n"
                               "gravity 0 -10\ncontact friction 30\nstatic\n"), 0);
     const double sum = 25.0 / 24;
     ck_near(cell("books", "nodes.csv", "10,b4", "x"), sum, 1, 1e-14);
