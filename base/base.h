@@ -10,6 +10,7 @@
 #define BBM_BASE_H
 
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -173,6 +174,8 @@ struct bbm_contact_scratch {
     bbm_contact *contact;       /* [contacts] of the pairs                                      */
     /* --- open_close.c --- */
     int passes, friction_passes;
+    int few_until;              /* before this pass few contacts change their states in each     */
+    uint64_t seen[BBM_MAX_PASSES + 1];          /* the states of each pass, as a number         */
     /* --- detect.c --- */
     int pairs;
     struct bbm_pair *pair;      /* [pairs]    a corner and an edge that may touch, sorted       */

@@ -159,8 +159,7 @@ bbm_status bbm_check_step(bbm_model *m)
     if (m->status)
         return m->status;
     if (!m->is_prepared)
-        return bbm_fail(m, BBM_BAD_PARAMETER, "bbm_prepare comes before the steps, and again after "
-                        "what is added");
+        return bbm_fail(m, BBM_BAD_PARAMETER, "a step needs bbm_prepare, after what is added too");
     return bbm_check_ranges(m, LENGTH(range), range);
 }
 

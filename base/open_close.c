@@ -3,9 +3,9 @@
  *
  * The iteration. N of a sliding contact depends on its friction, and the friction on N. So solve
  * with the friction of the last N until both agree; a hook may need fewer solutions. Only then look
- * at the states: all that do not fit their forces change, and a new solution follows. Where many
- * change together, forces may jump to and fro between them for ever. So after some passes only those
- * change that fit worst at both of their elements.
+ * at the states: all that do not fit their forces change, and a new solution follows. If a set of
+ * states comes back, the iteration would cycle, and where many change together, forces may jump to
+ * and fro between them. Then only those change that fit worst at both of their elements.
  *
  * Nothing moves before all contacts fit. If they never do, the step is done again as if it had not
  * been tried: in halves, or in statics in another way.
@@ -24,7 +24,7 @@
 
 /* The most passes in a row that change friction forces alone; after how many that change states few of
  * them change in each. */
-enum { FRICTION_PASSES = 100, MANY = 6 };
+enum { FRICTION_PASSES = 100, MANY = 10 };
 
 /* --------------------------------------------------------------------- the contacts of a step */
 
@@ -82,7 +82,7 @@ bbm_status bbm_detect_contacts(bbm_model *m, int *same)
         return status;
     for (int k = 0; k < w->contacts; k++)
         begin_contact(m, &w->contact[k]);
-    w->passes = w->friction_passes = 0;
+    w->passes = w->friction_passes = w->few_until = 0;
     return BBM_OK;
 }
 
@@ -217,14 +217,15 @@ static int fits_worst(const bbm_model *m, const bbm_contact *c, double most[])
     return 1;
 }
 
-/* Changes all states that do not fit the solution; after MANY passes those alone that fit worst at
- * both of their elements. A contact whose P crosses several lines of a corner waits until all
- * others fit, since they change the way of P. The worst are the same in any order of the blocks, but
- * for a tie. Returns the number of changes. */
+/* Changes all states that do not fit the solution. After MANY passes, or where they cycle, those
+ * alone that fit worst at both of their elements: where many change together, forces jump to and
+ * fro between them. A contact whose P crosses several lines of a corner waits until all others fit,
+ * since they change the way of P. The worst are the same in any order of the blocks, but for a tie.
+ * Returns the number of changes. */
 static int change_states(bbm_model *m)
 {
     bbm_contact_scratch *w = m->scratch;
-    const int few = w->passes >= MANY;
+    const int few = w->passes < w->few_until || w->passes >= MANY;
     double *most = m->K->y;                     /* [elements] the largest misfit at each */
     int changes = 0, sure = 0;
 
@@ -251,6 +252,25 @@ static int change_states(bbm_model *m)
     return changes;
 }
 
+/* Notes the states of this pass, with the direction of each slip, as one number, a hash (FNV-1a).
+ * An earlier pass with the same number had the same states: the iteration cycles, and from now on
+ * few contacts change in each pass, for as many passes as there have been. The last pass may
+ * have had them: then a hook has only renewed the vectors. The hash takes 1 to 5, as negative
+ * numbers would collide. */
+static void note_states(bbm_contact_scratch *w)
+{
+    uint64_t hash = 14695981039346656037u;
+
+    for (const bbm_contact *c = w->contact; c < w->contact + w->contacts; c++) {
+        const int direction = c->state == BBM_SLIDE && c->sign < 0 ? -1 : 1;
+        hash = (hash ^ (uint64_t)(3 + direction * (int)c->state)) * 1099511628211u;
+    }
+    for (int p = 0; p < w->passes; p++)
+        if (w->seen[p] == hash && w->seen[w->passes - 1] != hash)
+            w->few_until = 2 * w->passes;
+    w->seen[w->passes] = hash;
+}
+
 /* Checks a solution: first whether the friction forces agree with their N, then whether the states
  * fit the forces. A hook may find more to do. */
 bbm_pass bbm_open_close(bbm_model *m)
@@ -269,6 +289,7 @@ bbm_pass bbm_open_close(bbm_model *m)
     if (renewed)
         return ++w->friction_passes <= FRICTION_PASSES ? BBM_PASS_AGAIN : BBM_PASS_GIVE_UP;
     w->friction_passes = 0;
+    note_states(w);
     bbm_pass next = change_states(m) ? BBM_PASS_AGAIN : BBM_PASS_DONE;
     if (m->hook->renew)
         next = m->hook->renew(m, next);

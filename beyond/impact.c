@@ -288,7 +288,7 @@ static bbm_status solve(bbm_model *m, const bbm_model *step, const bbm_model *en
     bbm_status status = BBM_OK;
     bbm_pass pass = BBM_PASS_AGAIN;
 
-    m->scratch->passes = m->scratch->friction_passes = 0;
+    m->scratch->passes = m->scratch->friction_passes = m->scratch->few_until = 0;
     start_elements(m, end);
     start_gaps(m, end);
     start_contacts(m, step);

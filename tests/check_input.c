@@ -492,7 +492,7 @@ START_TEST(a_step_needs_bbm_prepare_and_again_after_what_is_added)
         : _i == 1 ? bbm_add_element(m, 1, 0, 3, (int[]){ 0, 1, 2 }, NULL)
         : bbm_add_line_load(m, 0, 1, 0, 1), m);
     ck_assert_int_eq(bbm_nodal_result(m, m->nodes - 1, -1, &r), BBM_BAD_INDEX);
-    check_error(m, bbm_step(m), BBM_BAD_PARAMETER, "bbm_prepare comes before the steps, and again");
+    check_error(m, bbm_step(m), BBM_BAD_PARAMETER, "a step needs bbm_prepare, after what is added too");
 }
 END_TEST
 
