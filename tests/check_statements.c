@@ -505,7 +505,8 @@ static int run_with(const char *model, const char *lets)
  * theory, whatever dt. `rotation exact` alone leads a corner to its place, whatever the step. */
 static const struct { const char *model, *lets; int status; } limits[] = {
     { "tunnel", "", 0 }, { "slope", "-d phi=38.15392", 0 },
-    { "tilt", "-d gx=4.75801059 -d gy=-8.57889475", 3 }, { "tilt", "-d gx=4.74932844 -d gy=-8.58370429", 0 },
+    { "tilt", "-d gx=4.75801059 -d gy=-8.57889475 -d dt=0.004", 3 },
+    { "tilt", "-d gx=4.74932844 -d gy=-8.58370429 -d dt=0.004", 0 },
     { "spread", "-d half=0.601", 3 }, { "spread", "-d half=0.577", 0 },
     { "dominoes", "-d spin=-1.45", 3 }, { "dominoes", "-d spin=-1.6", 0 },
     { "turning", "", 0 }, { "turning", "-d dt=0.001 -d steps=2000", 0 }, { "tunnel", "-d K=2 -d q=0", 0 },
