@@ -234,10 +234,10 @@ typedef struct {                /* at a grid point                              
 
 /* ----------------------------------------------------------------------------- 1. run a model */
 
+/* A step that fails leaves the model as it was; but of a step in parts those before the one that
+ * failed are done. */
 bbm_status  bbm_run(bbm_model *m);                          /* par.steps more steps             */
 bbm_status  bbm_step(bbm_model *m);                         /* one step, Fig. 8                 */
-/* A step that fails leaves the model as it was. Where it was cut into parts, those before the one
- * that failed are done. */
 /* The mean over the elements that meet at a node of a prepared model: those of one block, or of all
  * (-1). Without such elements, or if it is not prepared, BBM_BAD_INDEX without a message. */
 bbm_status  bbm_nodal_result(const bbm_model *m, int node, int block, bbm_result *r);

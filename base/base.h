@@ -140,11 +140,10 @@ struct bbm_contact {            /* vertex P1 of one block against an edge P2 P3 
     double anchor;              /* -        where P0 is: P0 = P3 + anchor (P2 - P3)             */
     double slip;                /* m        how far it has slid in all steps since it closed    */
     /* --- beyond the paper; carried, too --- */
-    double rest;                /* m        d_n at which the normal spring has no force, after  */
-                                /*          a hit in the next step; in the paper 0. With        */
-                                /*          bbm_motion a contact that closes with P1 inside     */
-                                /*          starts unloaded: then it is negative, and a hook    */
-                                /*          may bring it back to 0 in time                      */
+    double rest;                /* m        d_n at which the normal spring has no force; in the */
+                                /*          paper 0. With bbm_motion a contact that closes with */
+                                /*          P1 inside starts unloaded: then it is negative, and */
+                                /*          a hook may bring it back to 0 in time               */
     double area;                /* m^2      its share of an unbroken joint, or 0                */
     int    inside;              /* it is open, but P1 is inside since it was closed             */
     int    hit;                 /* a hook has given it an impulse in place of its spring's; 2:  */
@@ -174,7 +173,7 @@ struct bbm_contact_scratch {
     bbm_contact *contact;       /* [contacts] of the pairs                                      */
     /* --- open_close.c --- */
     int passes, friction_passes;
-    int few_until;              /* before this pass few contacts change their states in each     */
+    int few_until;              /* before this pass few contacts change their states in each    */
     uint64_t seen[BBM_MAX_PASSES + 1];          /* the states of each pass, as a number         */
     /* --- detect.c --- */
     int pairs;

@@ -66,13 +66,14 @@ void bbm_model_free(bbm_model *m)
  * what follows is not done, and gives that error. */
 #define REFUSE(m, ...) ((m)->status = (m)->status ? (m)->status : bbm_fail(m, __VA_ARGS__))
 
+#define COMPLETE "a model that has made a step takes no more"
+
 /* Puts a copy of an entry at the end of an array of the model, which is to be prepared anew, counts
  * it, and gives its index. One that has made a step stays as it is. */
 #define APPEND(m, array, count, entry, index) \
     ((m)->info.step > 0 ? bbm_fail(m, BBM_BAD_PARAMETER, COMPLETE) : \
      ((m)->is_prepared = 0, (m)->status = (m)->status ? (m)->status : \
       bbm_append(m, (void **)&(array), &(count), sizeof *(array), entry, index)))
-#define COMPLETE "a model that has made a step takes no more"
 
 bbm_status bbm_add_material(bbm_model *m, const bbm_material *a, int *index)
 {

@@ -22,8 +22,8 @@
 #define DIGITS 1e-15
 #define FIT 2e-4
 
-/* The most passes in a row that change friction forces alone; after how many that change states few of
- * them change in each. */
+/* The most passes in a row that change friction forces alone; and after how many passes few states
+ * change in each. */
 enum { FRICTION_PASSES = 100, MANY = 10 };
 
 /* --------------------------------------------------------------------- the contacts of a step */
@@ -254,9 +254,9 @@ static int change_states(bbm_model *m)
 
 /* Notes the states of this pass, with the direction of each slip, as one number, a hash (FNV-1a).
  * An earlier pass with the same number had the same states: the iteration cycles, and from now on
- * few contacts change in each pass, for as many passes as there have been. The last pass may
- * have had them: then a hook has only renewed the vectors. The hash takes 1 to 5, as negative
- * numbers would collide. */
+ * few contacts change in each pass, for as many passes as there have been. The last pass may have
+ * had them: then a hook has only renewed the vectors. The hash takes 1 to 5, as negative numbers
+ * would collide. */
 static void note_states(bbm_contact_scratch *w)
 {
     uint64_t hash = 14695981039346656037u;

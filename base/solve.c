@@ -127,7 +127,8 @@ static bbm_status solve_component(bbm_matrix *K, const double *F, double *D, dou
     }
     for (int i = K->from; i < K->to; i++)
         for (int a = 0; a < 36 && K->body[K->caller[i]] < 0; a++)
-            D[6 * K->caller[i] + a / 6] += scale * K->inverse[i][a / 6][a % 6] * K->r[6 * i + a % 6];
+            D[6 * K->caller[i] + a / 6] += scale / K->omega * K->inverse[i][a / 6][a % 6]
+                                         * K->r[6 * i + a % 6];
     info->residual = sqrt(rr / ff);
     return status;
 }

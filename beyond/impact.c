@@ -370,7 +370,6 @@ static void take(bbm_model *m, bbm_model *end)
         *c = m->beyond->jump_of[k];
         if (jumped && m->beyond->restitution >= 0 && (opens || has_closed(m, c))) {
             c->hit = 1;
-            c->rest = fmin(0, c->d_n);
             c->N = c->T = c->trial.time_left = 0;
         }
         c->trial.jump[0] = jumped ? N - c->N : 0;

@@ -41,8 +41,8 @@ double field_of_node(const field *f, const bbm_model *m, int node, int block);  
 /* All values of the table; `fits`: with the plane fit, which takes time; else stress for it. */
 void   field_all_of_node(const bbm_model *m, int node, int block, int fits, double all[FIELD_ROWS]);
 
-/* The normal (0) and the shear force (1) of a contact that acted in the last step, N: of its springs
- * or friction, and what a jump of velocities adds. */
+/* The normal (0) and the shear force (1) of a contact that acted in the last step, N: of its
+ * springs or friction, and what a jump of velocities adds. */
 static inline double field_acts(const bbm_contact *c, int shear)
 {
     return (shear ? c->T : c->N) + c->trial.jump[shear];

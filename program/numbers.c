@@ -72,9 +72,8 @@ static int blame_name(model_reader *r, const char *name)
     const int n = (int)strspn(name, MODEL_NAME);
 
     return model_blame(r, "no `let`%s says what $%.*s is%s%s",
-                       strcmp(r->s->name, "let") == 0 ? " above"
-                       : r->loop ? " above, or before the first `repeat`," : "", n < 60 ? n : 60, name,
-                       r->let_of.count ? ", expected one such as $" : "",
+                       strcmp(r->s->name, "let") == 0 || r->tail ? " above" : "",
+                       n < 60 ? n : 60, name, r->let_of.count ? ", expected one such as $" : "",
                        model_nearest_of(r, &r->let_of, name));
 }
 
@@ -393,8 +392,8 @@ static int repeat(model_reader *r, int from, int end)
     return 1;
 }
 
-/* The statements from .. to-1; the `let`s above the first `repeat` have been read before. An `end` is
- * that of a stage. */
+/* The statements from .. to-1; the `let`s above the first `repeat` have been read before. An `end`
+ * is that of a stage. */
 static int walk(model_reader *r, int from, int to)
 {
     for (int k = from; k < to; k++) {
@@ -405,7 +404,8 @@ static int walk(model_reader *r, int from, int to)
                               s->name);
         r->stage = is(s, "stage") ? ++r->p->stages : r->stage;
         if (is(s, "repeat") ? !repeat(r, k, end)
-            : is(s, "let") ? (r->round || (r->loop && k > r->loop)) && (!add_statement(r, s) || !read_let(r))
+            : is(s, "let") ? (r->round || k + r->tail > r->cuts)
+                             && (!add_statement(r, s) || !read_let(r))
             : !add_statement(r, s) || (is(s, "end") && !model_at_end(r)))
             return 0;
         r->stage = is(s, "end") ? 0 : r->stage;
@@ -424,9 +424,9 @@ static int read_lets(model_reader *r)
             return model_fail(r, s->at, "%s without its `end`, expected: %s", s->name, s->form);
         if (is(s, "end"))
             return model_fail(r, s->at, "this `end` closes no `repeat` and no `stage`");
-        if (is(s, "let") && !r->loop && (!add_statement(r, s) || !read_let(r)))
+        if (is(s, "let") && !r->tail && (!add_statement(r, s) || !read_let(r)))
             return 0;
-        r->loop = r->loop == 0 && is(s, "repeat") ? end : r->loop;
+        r->tail = r->tail == 0 && is(s, "repeat") ? r->cuts - end : r->tail;
         k = end;
     }
     return 1;
@@ -438,11 +438,12 @@ static int check_given(model_reader *r)
     for (int k = 0; k < r->lets; k++) {
         char word[NAME_ROOM];
         snprintf(word, sizeof word, "%.*s", (int)strcspn(r->let[k], "="), r->let[k]);
-        if (!strchr(r->let[k], '=') || model_find(&r->let_of, word) < 0)
+        const int at = model_find(&r->let_of, word);
+        if (at < 0 || strcmp(r->word[at].source, "-d or --find") != 0)
             return model_fail(r, r->whole, "'%.60s' of -d or --find, expected NAME=VALUE with a "
-                              "name of a `let`%s%s", r->let[k],
-                              r->let_of.count ? ", such as " : "; the model has none",
-                              model_nearest_of(r, &r->let_of, word));
+                              "name of a `let`%s%s", r->let[k], at >= 0 ? " outside of `repeat`"
+                              : r->let_of.count ? ", such as " : "; the model has none",
+                              at >= 0 ? "" : model_nearest_of(r, &r->let_of, word));
     }
     return 1;
 }

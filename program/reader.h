@@ -63,7 +63,7 @@ typedef struct {
     model_place whole;                      /* the model file, none of its lines */
     int lets, words, statements, nodes, elements, corners, blocks, materials, sets, copies;
     char *const *let;                       /* [lets]       NAME=VALUE of the command line */
-    int cuts, cut_words, depth, loop, repeated, removed, stage;
+    int cuts, cut_words, depth, repeated, removed, stage, tail;     /* tail: behind a `repeat` */
     int locals, own;                        /* own: those before the round */
     model_statement *cut;                   /* [cuts]       as the file has them, and their words */
     char **cut_word;                        /* [cut_words]  */

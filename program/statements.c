@@ -509,8 +509,7 @@ static int blame_statement(model_reader *r, const char *word, const char *next, 
         return model_fail(r, at, "there is no statement '%.60s'; see %s", word, see + 2);
     const char *near = model_nearest(r, word, kinds, LENGTH(kinds), sizeof *kinds, 2);
     return model_fail(r, at, "there is no statement '%.60s'; %s%s%sall are in doc/model-file.md%s",
-                      word, *near ? "nearest: " : "", near, *near ? "; " : "",
-                      model_hint(word));
+                      word, *near ? "nearest: " : "", near, *near ? "; " : "", model_hint(word));
 }
 
 /* Finds the statement that begins with the word; whether there is one. next: what follows. */
