@@ -51,39 +51,32 @@ void case_print_parameters(const bbm_model *m)
 
 /* --------------------------------------------------------------------------------------- meshes */
 
-static void add_mapped_node(bbm_model *m, const case_grid *g, double i, double j, int *index)
+static void add_mapped_node(bbm_model *m, const case_grid *g, double i, double j)
 {
     double xy[2] = { g->x + g->w * i / g->nx, g->y + g->h * j / g->ny };
 
     if (g->map)
         g->map(i, j, g->context, xy);
-    bbm_add_node(m, xy[0], xy[1], index);
-}
-
-static void add_cell(bbm_model *m, const case_grid *g, int i, int j)
-{
-    const int low = g->first + j * (g->nx + 1) + i, high = low + g->nx + 1;
-    int node[5] = { low, low + 1, high + 1, high };
-    int element[4][4], corners;
-
-    if (g->cut == CELL_CROSSED)
-        add_mapped_node(m, g, i + 0.5, j + 0.5, &node[4]);
-    const int cells = cell_cut(g->cut, (i + j) % 2, node, element, &corners);
-    for (int k = 0; k < cells; k++)
-        bbm_add_element(m, g->block, g->material, corners, element[k], NULL);
+    bbm_add_node(m, xy[0], xy[1], NULL);
 }
 
 int case_add_grid(bbm_model *m, case_grid *g)
 {
-    const int first = m->elements;
+    const int first = m->elements, row = g->nx + 1;
+    int element[4][4], corners;
 
     g->first = m->nodes;
-    for (int j = 0; j <= g->ny; j++)
-        for (int i = 0; i <= g->nx; i++)
-            add_mapped_node(m, g, i, j, NULL);
-    for (int j = 0; j < g->ny; j++)
-        for (int i = 0; i < g->nx; i++)
-            add_cell(m, g, i, j);
+    for (int n = 0; n < row * (g->ny + 1); n++)
+        add_mapped_node(m, g, n % row, n / row);
+    for (int c = 0; c < g->nx * g->ny; c++) {
+        const int i = c % g->nx, j = c / g->nx, low = g->first + j * row + i, high = low + row;
+        if (g->cut == CELL_CROSSED)
+            add_mapped_node(m, g, i + 0.5, j + 0.5);
+        const int node[5] = { low, low + 1, high + 1, high, m->nodes - 1 };
+        const int cells = cell_cut(g->cut, (i + j) % 2, node, element, &corners);
+        for (int k = 0; k < cells; k++)
+            bbm_add_element(m, g->block, g->material, corners, element[k], NULL);
+    }
     case_must(m, m->status);
     return first;
 }

@@ -46,19 +46,6 @@ typedef struct {
     double at[4][STEPS + 1];                /* m        u, v of the centre of mass, then of P   */
 } slide;
 
-/* The traction on the left side of the block. */
-static void pull(bbm_model *m, int first, int line)
-{
-    for (int j = 0; j < 2; j++) {
-        const bbm_vertex *corner = &m->vertex[m->element[first + 4 * j].first];
-        if (line)
-            bbm_add_line_load(m, corner[3].node, corner[0].node, F, 0);
-        else
-            for (int k = 0; k < 4; k += 3)
-                bbm_add_load(m, corner[k].node, F / 4, 0);
-    }
-}
-
 /* The model, brought into equilibrium by quasi-static steps: springs that are loaded suddenly would
  * swing. */
 static void build(bbm_model *m, const variant *v, int *first)
@@ -70,7 +57,13 @@ static void build(bbm_model *m, const variant *v, int *first)
         bbm_fix_node(m, n, BBM_XY, 0, 0);
     *first = case_add_grid(m, &(case_grid){ .block = 1, .material = 1, .nx = 4, .ny = 2,
                                             .x = -8, .y = 1, .w = 4, .h = 1 });
-    pull(m, *first, v->line);
+    for (int j = 0; j < 2; j++) {               /* the traction on the left side of the block */
+        const bbm_vertex *corner = &m->vertex[m->element[*first + 4 * j].first];
+        if (v->line)
+            bbm_add_line_load(m, corner[3].node, corner[0].node, F, 0);
+        for (int k = 0; k < 4 && !v->line; k += 3)
+            bbm_add_load(m, corner[k].node, F / 4, 0);
+    }
     m->par.dt = DT;
     m->par.gravity[1] = -v->gravity;
     m->par.alpha = v->beyond ? 1e4 : 1000;

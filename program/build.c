@@ -346,12 +346,6 @@ static void choose_there(model_reader *r, const selection *w)
     }
 }
 
-/* Whether something else has the name of a set of these dimensions, also a block that it is not. */
-static int is_ambiguous(int dimensions, int is_block)
-{
-    return dimensions & (dimensions - 1) || (is_block && dimensions != 1 << 2);
-}
-
 /* The words of WHERE; a set may be all nodes of a block. */
 static int read_selection(model_reader *r, selection *w)
 {
@@ -360,7 +354,7 @@ static int read_selection(model_reader *r, selection *w)
         [BY_BOX] = { "box", 4 },
     };
 
-    *w = (selection){ .block = -1 };
+    *w = (selection){ 0 };
     while (w->kind < LENGTH(kind) && !model_skip(r, kind[w->kind].word))
         w->kind++;
     if (w->kind == LENGTH(kind)) {
@@ -379,11 +373,12 @@ static int read_selection(model_reader *r, selection *w)
     const int is_block = model_look(r) && model_find(&r->block_of, model_look(r)) >= 0;
     if (kind[w->kind].numbers == 0 && (w->found = model_known(r, of)) < 0)
         return 0;
-    if (w->kind == BY_SET && w->found >= r->sets)
-        w->block = w->found - r->sets;
-    else if (w->kind == BY_SET && is_ambiguous(r->set[w->found].dimensions, is_block))
+    const int is_set = w->kind == BY_SET && w->found < r->sets;
+    const int what = is_set ? r->set[w->found].dimensions : 0;
+    if (what & (what - 1) || (is_set && is_block && what != 1 << 2))
         return model_blame(r, "several things have that name, of blocks, sets and the mesh's "
                               "groups of surfaces, curves and points, expected one");
+    w->block = w->kind == BY_SET && !is_set ? w->found - r->sets : -1;
     if (w->kind == BY_BOX && !(w->x[0] <= w->x[2] && w->x[1] <= w->x[3]))
         return model_blame(r, "a box from %g, %g to %g, %g, expected: box XMIN YMIN XMAX YMAX",
                            w->x[0], w->x[1], w->x[2], w->x[3]);
@@ -495,59 +490,41 @@ int model_load_nodes(model_reader *r)
     return m->status ? model_blame(r, "loads too large to add up, expected finite ones") : 1;
 }
 
-/* Pa; of water: density in kg/m^3, level in m. */
-typedef struct { double t[2], pressure, density, level; } edge_load;
-
-/* Loads the boundary edges with both ends in WHERE. */
-static int load_edges(model_reader *r, const edge_load *l)
+/* Loads the boundary edges with both ends in WHERE: a traction or a pressure, in Pa, or water up to a
+ * level, in m. */
+int model_edge_load(model_reader *r)
 {
     bbm_model *m = r->p->m;
-    int found = 0, wet = 0;
+    const int pulls = strcmp(r->s->name, "traction") == 0, water = strcmp(r->s->name, "water") == 0;
+    double x[3] = { 0 }, density = 1000;        /* x: the traction; the pressure, or the level */
+    model_option o[] = { ABOVE_ZERO("density", &density) };
+    int found = 0, dry = water;
 
+    if (!where(r, 0) || !(pulls ? model_numbers(r, 2, x) : model_number(r, &x[2]))
+        || (water && !model_options(r, 0, LENGTH(o), o)))
+        return 0;
+    if (water && !(hypot(m->par.gravity[0], m->par.gravity[1]) > 0))
+        return model_blame(r, "water without weight, expected gravity");
     for (int e = 0; e < m->edges; e++) {
         const bbm_vertex *a = bbm_start_of(m, e), *b = bbm_end_of(m, e);
         const double t = m->element[m->edge[e].element].material.thickness;
         if (r->named[a->node] != r->wheres || r->named[b->node] != r->wheres)
             continue;
         found = 1;
-        wet |= fmin(a->y, b->y) + m->origin[1] < l->level;
-        if (l->density > 0)
-            bbm_add_water(m, e, l->level, l->density * t);
+        dry &= fmin(a->y, b->y) + m->origin[1] >= x[2];
+        if (water)
+            bbm_add_water(m, e, x[2], density * t);
         else
-            bbm_load_edge(m, e, l->t[0] * t, l->t[1] * t, l->pressure * t);
+            bbm_load_edge(m, e, x[0] * t, x[1] * t, x[2] * t);
     }
     if (!found)
         return model_blame(r, "no boundary edge has both ends there, expected a set or a box with "
                            "both");
-    if (l->density > 0 && !wet)
-        return model_blame(r, "no edge there lies below y = %.9g, expected one under water",
-                           l->level);
+    if (dry)
+        return model_blame(r, "no edge there lies below y = %.9g, expected one under water", x[2]);
     if (m->status == BBM_NO_MEMORY)
         return model_out_of_memory(r);
     return m->status ? model_blame(r, "a load too large, expected a finite one") : 1;
-}
-
-/* Of traction and pressure. */
-int model_edge_load(model_reader *r)
-{
-    edge_load l = { .density = 0 };
-
-    return where(r, 0) && (strcmp(r->s->name, "pressure") == 0 ? model_number(r, &l.pressure)
-                                                               : model_numbers(r, 2, l.t))
-           && load_edges(r, &l);
-}
-
-int model_water(model_reader *r)
-{
-    const double *g = r->p->m->par.gravity;
-    edge_load l = { .density = 1000 };
-    model_option o[] = { ABOVE_ZERO("density", &l.density) };
-
-    if (!where(r, 0) || !model_number(r, &l.level) || !model_options(r, 0, LENGTH(o), o))
-        return 0;
-    if (!(hypot(g[0], g[1]) > 0))
-        return model_blame(r, "water without weight, expected gravity");
-    return load_edges(r, &l);
 }
 
 /* BLOCK BLOCK, `*`: -1, any. */

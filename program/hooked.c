@@ -11,9 +11,7 @@
 typedef struct {
     bbm_beyond library;
     model *p;
-    bbm_status (*begin)(bbm_model *m);          /* the library's hooks */
-    bbm_pass (*renew)(bbm_model *m, bbm_pass next);
-    bbm_status (*move)(bbm_model *m);
+    bbm_hooks hook;                             /* the library's own */
 } hooked;
 
 static hooked *hooked_of(const bbm_model *m) { return (hooked *)m->beyond; }
@@ -152,7 +150,7 @@ static void list_gaps(bbm_model *m)
  * middle of the step, which is the mean between two rows. */
 static bbm_status begin(bbm_model *m)
 {
-    const bbm_status status = hooked_of(m)->begin(m);
+    const bbm_status status = hooked_of(m)->hook.begin(m);
     const model *p = hooked_of(m)->p;
     const model_shaking *q = p->shaking, *end = p->shakings ? q + p->shakings - 1 : q;
     const double t = m->info.t + m->h / 2;
@@ -176,7 +174,7 @@ static bbm_pass renew(bbm_model *m, bbm_pass next)
 {
     const model *p = hooked_of(m)->p;
 
-    next = hooked_of(m)->renew(m, next);
+    next = hooked_of(m)->hook.renew(m, next);
     for (int q = 0; q < p->parts && next == BBM_PASS_DONE && bbm_motion_of(m); q++) {
         const bbm_gap *g = &m->gap[m->gaps - p->parts + q];
         const scene_bolt part = part_of(p, q);
@@ -206,7 +204,7 @@ static bbm_status move(bbm_model *m)
         for (int a = 0; a < 2; a++)
             p->bolt[p->part[q].of].force[a] += g->W[a][0] * d[0] + g->W[a][1] * d[1];
     }
-    const bbm_status status = hooked_of(m)->move(m);
+    const bbm_status status = hooked_of(m)->hook.move(m);
     for (b = p->bolt; b < end && !status; b++) {
         bbm_direction n;
         model_bolt_force(m, b, &n);
@@ -242,7 +240,7 @@ int model_hook(model_reader *r)
     if (!b || !gap)
         return model_out_of_memory(r);
     memset(gap + gaps, 0, parts * sizeof *gap);
-    *b = (hooked){ b->library, p, m->hook->begin, m->hook->renew, m->hook->move };
+    *b = (hooked){ b->library, p, *m->hook };
     m->hook->begin = begin;
     m->hook->renew = renew;
     m->hook->move = move;

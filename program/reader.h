@@ -199,7 +199,7 @@ int   model_finish(model_reader *r);
 /* It takes its words one by one and returns 1, or 0 after model_fail. What is left of them is
  * surplus. */
 typedef int model_action(model_reader *r);
-model_action model_fix, model_load_nodes, model_edge_load, model_water, model_joint,
+model_action model_fix, model_load_nodes, model_edge_load, model_joint,
              model_velocities, model_stress, model_bodyforce, model_monitors, model_bolts,
              model_pins, model_stage_head;
 

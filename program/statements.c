@@ -459,7 +459,7 @@ static const struct kind {
     { "load WHERE [of BLOCK] FX FY", model_load_nodes, MODEL, STAGED },
     { "traction WHERE [of BLOCK] TX TY", model_edge_load, MODEL, STAGED },
     { "pressure WHERE [of BLOCK] P", model_edge_load, MODEL, STAGED },
-    { "water WHERE [of BLOCK] LEVEL [density VALUE]", model_water, MODEL, 0 },
+    { "water WHERE [of BLOCK] LEVEL [density VALUE]", model_edge_load, MODEL, 0 },
     { "bolt WHERE WHERE stiffness VALUE [strength VALUE] [pretension VALUE]", model_bolts, MODEL,
       0 },
     { "pin BLOCK BLOCK at X Y", model_pins, MODEL, 0 },
