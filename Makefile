@@ -43,7 +43,7 @@ CASES    = exp1 exp2 exp3
 COMMON   = cases/case cases/theory $(addprefix program/,cell field output plot scene)
 SHARED   = $(COMMON) cases/beyond program/edge_load
 READER   = $(addprefix program/,statements numbers build hooked stage msh reader model cell field)
-PROGRAM  = $(READER) $(addprefix program/,main warn run find write output plot scene edge_load)
+PROGRAM  = $(READER) $(addprefix program/,main warn run write output plot scene edge_load)
 HEADERS  = $(wildcard *.h base/*.h beyond/*.h cases/*.h program/*.h page/*.h tests/*.h)
 
 all: $(CASES:%=$O/%) $O/bench bbm

@@ -88,8 +88,7 @@ static void join_copies(const model_reader *r, int up[], bbm_box box[])
             bbm_widen_box(&box[n], at->x, at->y, NEAR * hypot(b->x - a->x, b->y - a->y));
         }
     }
-    if (n > 0)
-        bbm_sort_boxes(n, box);
+    bbm_sort_boxes(n, box);
     for (int i = 0, j = 0; bbm_next_meeting(n, box, &i, &j);) {
         const int p = r->copy[box[i].of].block, q = r->copy[box[j].of].block;
         if (p != q && r->p->body[p] == r->p->body[q])
@@ -490,8 +489,8 @@ int model_load_nodes(model_reader *r)
     return m->status ? model_blame(r, "loads too large to add up, expected finite ones") : 1;
 }
 
-/* Loads the boundary edges with both ends in WHERE: a traction or a pressure, in Pa, or water up to a
- * level, in m. */
+/* Loads the boundary edges with both ends in WHERE: a traction or a pressure, in Pa, or water up to
+ * a level, in m. */
 int model_edge_load(model_reader *r)
 {
     bbm_model *m = r->p->m;

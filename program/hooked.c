@@ -91,25 +91,28 @@ double model_bolt_force(const bbm_model *m, const scene_bolt *b, bbm_direction *
     return b->k * (length - b->rest);
 }
 
-/* A bolt as a gap: along n with the force F at the length L it resists by k along n, and in statics
- * across it a force that pulls turns back with F/L,
+/* A part of a bolt as a gap: along n with the force F at the length L it resists by k along n, and
+ * in statics across it a force that pulls turns back with F/L,
  *     W = k n n^T + F/L (1 - n n^T),  d0 = n F/k.
  * With exact rotations n is the direction in the middle of the step. The vector P from end to end
  * becomes P1, and L1^2 - L^2 = (P1 + P).(P1 - P). So the length changes by c n.(P1 - P), with n
  * along P1 + P and c = |P1 + P|/(L1 + L): the work is what the bolt loses, and the force keeps
  * angular momentum. A pin, which is at rest without length, resists in both directions alike. */
-static void find_gap(const bbm_model *m, const scene_bolt *b, bbm_gap *g)
+static void find_gap(const bbm_model *m, const scene_bolt *part, bbm_gap *g)
 {
-    const bbm_vertex P = point_of(m, &b->end[0]), Q = point_of(m, &b->end[1]);
+    scene_bolt b = *part;
+    const bbm_vertex P = point_of(m, &b.end[0]), Q = point_of(m, &b.end[1]);
     const bbm_element *i = &m->element[P.element], *j = &m->element[Q.element];
     bbm_direction n;
-    const double force = model_bolt_force(m, b, &n), L = n.length,
-                 across = b->rest == 0 ? b->k : bbm_motion_of(m) ? 0 : fmax(0, force) / L;
+
+    b.k *= hooked_of(m)->p->bolt[b.of].k;               /* as the bolt is now */
+    const double force = model_bolt_force(m, &b, &n), L = n.length,
+                 across = b.rest == 0 ? b.k : bbm_motion_of(m) ? 0 : fmax(0, force) / L;
     double c = 1, d[2];
 
     bbm_bonding_gap(i, &P, j, &Q, 0, g);
     g->elastic = 1;
-    if (i->middle && b->rest > 0) {
+    if (i->middle && b.rest > 0) {
         bbm_gap_length(m, g, d);                                /* P1 - P */
         const double x = 2 * L * n.x + d[0], y = 2 * L * n.y + d[1], sum = hypot(x, y);
         c = sum / (L + hypot(x - L * n.x, y - L * n.y));
@@ -117,18 +120,9 @@ static void find_gap(const bbm_model *m, const scene_bolt *b, bbm_gap *g)
     }
     for (int a = 0; a < 4; a++) {
         const double row = a < 2 ? n.x : n.y, column = a % 2 ? n.y : n.x;
-        g->W[a / 2][a % 2] = (b->k * c * c - across) * row * column + across * (a % 3 == 0);
-        g->d0[a / 2] = (L - b->rest) / c * row;
+        g->W[a / 2][a % 2] = (b.k * c * c - across) * row * column + across * (a % 3 == 0);
+        g->d0[a / 2] = (L - b.rest) / c * row;
     }
-}
-
-/* A part of a bolt as the bolt is now. */
-static scene_bolt part_of(const model *p, int q)
-{
-    scene_bolt part = p->part[q];
-
-    part.k *= p->bolt[part.of].k;
-    return part;
 }
 
 /* The bolts stand behind the library's own gaps. One that is broken holds nothing together. */
@@ -138,9 +132,9 @@ static void list_gaps(bbm_model *m)
 
     bbm_list_edge_gaps(m);
     for (int q = 0; q < p->parts; q++) {
-        const scene_bolt part = part_of(p, q);
-        const int i = part.end[0].element, j = part.k > 0 ? part.end[1].element : i;
-        find_gap(m, &part, bbm_add_gap(m, i, j));
+        const scene_bolt *b = &p->part[q];
+        const int i = b->end[0].element, j = p->bolt[b->of].k > 0 ? b->end[1].element : i;
+        find_gap(m, b, bbm_add_gap(m, i, j));
     }
 }
 
@@ -177,10 +171,11 @@ static bbm_pass renew(bbm_model *m, bbm_pass next)
     next = hooked_of(m)->hook.renew(m, next);
     for (int q = 0; q < p->parts && next == BBM_PASS_DONE && bbm_motion_of(m); q++) {
         const bbm_gap *g = &m->gap[m->gaps - p->parts + q];
-        const scene_bolt part = part_of(p, q);
+        const scene_bolt *b = &p->part[q];
         bbm_gap now = *g;
-        find_gap(m, &part, &now);
-        if (hypot(now.W[0][0] - g->W[0][0], now.W[0][1] - g->W[0][1]) > DIRECTION * part.k) {
+        find_gap(m, b, &now);
+        if (hypot(now.W[0][0] - g->W[0][0], now.W[0][1] - g->W[0][1])
+            > DIRECTION * (b->k * p->bolt[b->of].k)) {
             bbm_set_middle(m);
             next = BBM_PASS_AGAIN;
         }

@@ -18,6 +18,14 @@
 static volatile sig_atomic_t stopped;
 enum { SILENCE = 10 };              /* s between lines of progress to a file */
 
+typedef struct {                /* what the command line asks for */
+    const char *model, *find;   /* find: a `let` whose limit between two ends is wanted, or NULL */
+    char *matrix, folder[1024];
+    int  lets, quiet, check, exit;      /* exit: its status, or -1: go on */
+    char **let;                 /* [lets]       NAME=VALUE; room for one more */
+    double end[2];
+} arguments;
+
 static const char usage[] =
     "usage: bbm [-q] [--check] [-d NAME=VALUE] [-o FOLDER] [-m FILE] MODEL\n"
     "       bbm [-q] [-d NAME=VALUE] --find NAME LOW HIGH MODEL\n"
@@ -364,6 +372,85 @@ static int run_model(write_results *w, int quiet)
     return all_met ? 0 : 3;
 }
 
+/* ------------------------------------------------------------------- the limit of a number: --find
+ * The model runs with the number LOW and HIGH. Where the expectations are met at one end and not at
+ * the other, the middle takes the place of the end that it is like, until the ends are within a
+ * thousandth of where they began. A run that fails has not met them. */
+
+enum { NOT_MET, MET, UNKNOWN };         /* the last: the input is wrong, or it was interrupted */
+enum { HALVINGS = 10 };         /* 2^-10 of the interval is a thousandth */
+
+/* Whether all is as expected; text: of what is not, or of the last. */
+static int judge(model *p, char text[520])
+{
+    run r = { .p = p, .settling = p->settle };
+    bbm_status status = BBM_OK;
+
+    p->m->monitor = before_solution;
+    while (!status && !r.is_over && !stopped)
+        status = run_step(&r);
+    if (stopped)
+        return UNKNOWN;
+    if (status) {
+        run_says(&r, status, text);
+        strcat(text, ": NOT MET");
+        return NOT_MET;
+    }
+    for (int k = 0; k < p->expectations; k++)
+        if (!run_is_met(p, k, text))
+            return NOT_MET;
+    return MET;
+}
+
+/* One run; what it says, unless it is to be quiet. */
+static int try_number(const arguments *a, double x, int first)
+{
+    char text[520] = "", number[200];
+    model p;
+    int answer = UNKNOWN;
+
+    a->let[a->lets] = number;
+    snprintf(number, sizeof number, "%.100s=%.15g", a->find, x);
+    const int status = model_read(a->model, a->lets + 1, a->let, &p);
+    for (int k = 0; k < p.notes && first && !status; k++)
+        fprintf(stderr, "%s\n", p.note[k]);
+    if (status)
+        fprintf(stderr, "%s = %.9g: %s\n", a->find, x, p.message);
+    else if (p.expectations == 0)
+        fprintf(stderr, "%s: --find needs an `expect`, as: expect NAME stays by 0.01\n", a->model);
+    else
+        answer = judge(&p, text);
+    if (answer <= MET && !a->quiet)
+        printf("%s = %-12.9g %s\n", a->find, x, text);
+    fflush(stdout);
+    model_free(&p);
+    return answer;
+}
+
+/* Says what it finds; the exit status. */
+static int find_limit(const arguments *a)
+{
+    double x[2] = { a->end[0], a->end[1] };
+    const int low = try_number(a, x[0], 1), high = low > MET ? low : try_number(a, x[1], 0);
+    int answer = high, runs = 2;
+
+    if (high <= MET && low == high)
+        return printf("the expectations are %s at %s = %g and %g, 2 runs; expected a number "
+                      "between one that meets them and one that does not\n",
+                      answer == MET ? "met" : "not met", a->find, x[0], x[1]), 3;
+    for (; answer <= MET && runs < HALVINGS + 2; runs++) {
+        const double middle = x[0] + (x[1] - x[0]) / 2;
+        answer = try_number(a, middle, 0);
+        x[answer != low] = middle;
+    }
+    if (answer > MET)
+        return 2;
+    printf("the limit is %s = %.6g +- %.2g: the expectations are met at %.9g, not at %.9g; %d "
+           "runs\n", a->find, (x[0] + x[1]) / 2, fabs(x[1] - x[0]) / 2, x[low != MET],
+           x[low == MET], runs);
+    return 0;
+}
+
 static int read_and_run(const arguments *a, clock_t start)
 {
     model p;
@@ -407,7 +494,6 @@ int main(int argc, char *argv[])
     signal(SIGXFSZ, SIG_IGN);
 #endif
     read_arguments(&a, argc, argv);
-    a.stop = before_solution;
     const int status = a.exit >= 0 ? a.exit : read_and_run(&a, start);
     const int lost = fflush(stdout) || ferror(stdout);
     if (lost)

@@ -73,7 +73,7 @@ typedef struct {
     int    expectations;
     model_expected *expected;   /* [expectations] value and within: m */
     int    moving;              /* supports: whether any moves */
-    double ramp;                /* s            in which; 0: at once */
+    double ramp;                /* s            in which; 0: at once; INFINITY: in all steps */
     int    stages, now, begun;  /* behind the first run; the one in hand, 0: none, and its start */
     model_stage *stage;         /* [stages+1] */
     int   *gone;                /* [blocks]     the stage that removes it; 0: none */

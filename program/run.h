@@ -23,17 +23,6 @@ bbm_status run_step(run *r);
 void run_says(const run *r, bbm_status status, char out[500]);      /* why a run failed */
 int  run_is_met(const model *p, int k, char out[300]);  /* expectation k beside what came out */
 
-typedef struct {                /* what the command line asks for */
-    const char *model, *find;   /* find: a `let` whose limit between two ends is wanted, or NULL */
-    char *matrix, folder[1024];
-    int  lets, quiet, check, exit;      /* exit: its status, or -1: go on */
-    char **let;                 /* [lets]       NAME=VALUE; room for one more */
-    double end[2];
-    int  (*stop)(const bbm_model *m, void *none);       /* looked at before each solution */
-} arguments;
-
-int find_limit(const arguments *a);     /* find.c: says what it finds; the exit status */
-
 /* warn.c: what is allowed and hardly meant, a line each on stderr: of the model; of a way that is
  * long, once a run; of the run. */
 void warn_before(const model *p, const char *path);

@@ -98,11 +98,8 @@ typedef struct {                        /* what the functions below draw with   
 
 static void drop_frame(const scene_frame *f)
 {
-    free(f->at);
-    free(f->held);
-    free(f->load);
+    free(f->vertex);
     free(f->force);
-    free(f->value);
 }
 
 void scene_free(scene *s)
@@ -133,22 +130,18 @@ static void thin_out(scene *s)
 /* With what holds each vertex now, and the loads. */
 static int make_frame(scene_frame *f, const bbm_model *m)
 {
-    f->at = malloc((size_t)m->vertices * sizeof *f->at);
-    f->held = malloc((size_t)m->vertices * sizeof *f->held);
-    f->value = malloc((size_t)m->vertices * sizeof *f->value);
+    f->vertex = malloc((size_t)m->vertices * sizeof *f->vertex);
     f->force = malloc((2 * (size_t)m->elements + (size_t)m->contacts) * sizeof *f->force);
-    f->load = malloc((size_t)m->nodes * sizeof *f->load);
     f->edges = m->edges;
-    for (int n = 0; n < m->nodes && f->load; n++)
-        memcpy(f->load[n], m->node[n].load, sizeof f->load[n]);
     for (scene_line l; scene_edge_load(m, f->lines, &l); )
         f->lines++;
-    for (int v = 0; v < m->vertices && f->held; v++) {
+    for (int v = 0; v < m->vertices && f->vertex; v++) {
         const bbm_node *i = &m->node[m->vertex[v].node];
-        f->held[v] = field_is_gone(m, v) ? SCENE_GONE
-                   : i->held + (i->wall[0] != 0 || i->wall[1] != 0 ? SCENE_MOVED : 0);
+        const int moved = i->wall[0] != 0 || i->wall[1] != 0 ? SCENE_MOVED : 0;
+        f->vertex[v] = (scene_vertex){ .load = { i->load[0], i->load[1] },
+                                       .held = field_is_gone(m, v) ? SCENE_GONE : i->held + moved };
     }
-    return f->at && f->held && f->load && f->value && f->force;
+    return f->vertex && f->force;
 }
 
 /* The principal stresses of each element in their directions, at its mean point. */
@@ -160,8 +153,8 @@ static void put_crosses(scene_frame *f, const bbm_model *m)
         const double radius = hypot(s[0] - middle, s[2]), angle = atan2(s[2], s[0] - middle) / 2;
         point mean = { 0, 0 };
         for (int v = e->first; v < e->first + e->n; v++) {
-            mean.x += f->at[v].x / e->n;
-            mean.y += f->at[v].y / e->n;
+            mean.x += f->vertex[v].at.x / e->n;
+            mean.y += f->vertex[v].at.y / e->n;
         }
         for (int k = 0; k < 2; k++) {
             const double p = k ? middle - radius : middle + radius, a = angle + k * acos(0);
@@ -179,19 +172,19 @@ static int fill_frame(scene_frame *f, const bbm_model *m, const field *shown, in
     int finite = 1;
 
     for (int v = 0; v < m->vertices; v++) {
-        const int i = m->vertex[v].node, gone = f->held[v] == SCENE_GONE;
+        scene_vertex *s = &f->vertex[v];
+        const int i = m->vertex[v].node, gone = s->held == SCENE_GONE;
         bbm_result r;
         bbm_nodal_result(m, i, -1, &r);
         if (scene_is_cracked(m))                        /* a crack parts what meets at a node   */
             r.u = m->vertex[v].u, r.v = m->vertex[v].v;
-        f->at[v] = gone ? (point){ times[0] * field_place(m, v, 0),
-                                   times[0] * field_place(m, v, 1) }
+        s->at = gone ? (point){ times[0] * field_place(m, v, 0), times[0] * field_place(m, v, 1) }
                  : (point){ times[0] * m->node[i].x + times[1] * r.u,
                             times[0] * m->node[i].y + times[1] * r.v };
-        f->value[v] = gone ? NAN : !shown ? 0
-                    : nodal ? field_of_node(shown, m, i, m->element[m->vertex[v].element].block)
-                            : field_of_element(shown, m, m->vertex[v].element);
-        finite &= gone || isfinite(r.u + r.v + f->value[v]);
+        s->value = gone ? NAN : !shown ? 0
+                 : nodal ? field_of_node(shown, m, i, m->element[m->vertex[v].element].block)
+                         : field_of_element(shown, m, m->vertex[v].element);
+        finite &= gone || isfinite(r.u + r.v + s->value);
     }
     if (shown && !has_colours(shown->name))
         put_crosses(f, m);
@@ -219,7 +212,7 @@ void scene_record(scene *s, const bbm_model *m)
         double force[2];
         field_contact_force(m, c, N, field_acts(c, 1), force);
         if (c->state != BBM_OPEN)
-            f.force[f.forces++] = (scene_force){ f.at[corner->a], { force[0], force[1] }, N,
+            f.force[f.forces++] = (scene_force){ f.vertex[corner->a].at, { force[0], force[1] }, N,
                                                  N < 0 ? PULLED : (int)c->state,
                                                  { corner->block, m->edge[c->edge].block } };
     }
@@ -232,7 +225,7 @@ void scene_record(scene *s, const bbm_model *m)
 static double gap(point a, point b) { return hypot(b.x - a.x, b.y - a.y); }
 
 /* m, in a frame */
-static point position(const film *f, int frame, int v) { return f->s->frame[frame].at[v]; }
+static point position(const film *f, int frame, int v) { return f->s->frame[frame].vertex[v].at; }
 
 /* pixels */
 static point pixel(const film *f, point a)
@@ -286,12 +279,12 @@ static void find_bodies(film *f)
         b->first = v;
         b->n++;
         for (const scene_frame *g = first; g < end; g++)
-            b->held &= g->held[v] == BBM_XY || g->held[v] == SCENE_GONE;
-        b->fixed |= end[-1].held[v] & BBM_XY;
+            b->held &= g->vertex[v].held == BBM_XY || g->vertex[v].held == SCENE_GONE;
+        b->fixed |= end[-1].vertex[v].held & BBM_XY;
         plot_widen(b->box, position(f, 0, v).x, position(f, 0, v).y);
     }
     for (body *b = f->body; b < f->body + f->bodies; b++) {
-        b->n *= b->first >= 0 && first->held[b->first] != SCENE_GONE;
+        b->n *= b->first >= 0 && first->vertex[b->first].held != SCENE_GONE;
         f->held |= b->held && b->n > 0;
         f->whole |= !b->held && b->n > 0 && b->n == m->element[m->vertex[b->first].element].n;
         b->tint = choose_tint(f, b);
@@ -418,7 +411,9 @@ static void animate(film *f, const char *attribute, const body *b, writer *put)
 /* The colour of the block's first element. */
 static void put_colour(film *f, int frame, const body *b)
 {
-    plot_put(&f->p, "%s", plot_value_colour(&f->bar, f->s->frame[frame].value[b->first]).text);
+    const double value = f->s->frame[frame].vertex[b->first].value;
+
+    plot_put(&f->p, "%s", plot_value_colour(&f->bar, value).text);
 }
 
 /* What `put` draws of a block; fill: NULL, the colour of its first element. */
@@ -537,9 +532,10 @@ static void visit_forces(film *f, int frame, int kind, visitor *visit)
     const scene_frame *g = &f->s->frame[frame];
     point last = { INFINITY, 0 };
 
-    for (int i = 0; kind == LOAD && i < m->nodes; i++)
-        visit_force(f, kind, position(f, frame, m->adjacent[m->adjacent_first[i]]),
-                    (point){ g->load[i][0], g->load[i][1] }, f->normal[i], visit);
+    for (int i = 0; kind == LOAD && i < m->nodes; i++) {
+        const scene_vertex *a = &g->vertex[m->adjacent[m->adjacent_first[i]]];
+        visit_force(f, kind, a->at, a->load, f->normal[i], visit);
+    }
     for (int i = 0; kind == LINE_LOAD && i < m->line_loads; i++) {
         const bbm_line_load *l = &m->line_load[i];
         visit_edge(f, frame, &(scene_line){ l->a, l->b, l->constant ? 1 : BBM_GAUSS, l->f,
@@ -561,7 +557,7 @@ static void visit_supports(film *f, int frame, visitor *visit)
 
     for (const body *b = f->body; b < f->body + f->bodies; b++)
         for (int k = 0, v = b->first; k < b->n && !b->held; k++, v = f->next[v]) {
-            const int held = f->s->frame[frame].held[v] & BBM_XY;
+            const int held = f->s->frame[frame].vertex[v].held & BBM_XY;
             const point x = position(f, frame, v);
             point d = f->normal[f->m->vertex[v].node];
             if (held == 0 || gap(x, last[held]) * f->scale < 8)
@@ -880,8 +876,8 @@ static int find_colours(film *f)
         return 0;
     for (const scene_frame *g = f->s->frame; g < f->s->frame + f->s->frames; g++)
         for (int v = 0; v < f->m->vertices; v++)
-            if (isfinite(g->value[v]) && !body_of(f, v)->held)
-                x[n++] = g->value[v];
+            if (isfinite(g->vertex[v].value) && !body_of(f, v)->held)
+                x[n++] = g->vertex[v].value;
     n = n ? n : 1;
     qsort(x, (size_t)n, sizeof *x, by_size);
     f->range[0] = x[0];
@@ -1024,20 +1020,20 @@ typedef struct { double x, y, value; } sample;     /* pixels */
  * power of ten, 1 at least. */
 static double find_scale(const scene *s, const bbm_model *m)
 {
-    const point *x = s->frame[0].at, *d = s->frame[1].at;
+    const scene_vertex *x = s->frame[0].vertex, *d = s->frame[1].vertex;
     double range[2][2] = { { INFINITY, -INFINITY }, { INFINITY, -INFINITY } };
     double moved = 0, fair = INFINITY;
 
     for (int v = 0; v < m->vertices; v++) {
-        plot_widen(range, x[v].x, x[v].y);
-        moved = fmax(moved, hypot(d[v].x, d[v].y));
+        plot_widen(range, x[v].at.x, x[v].at.y);
+        moved = fmax(moved, hypot(d[v].at.x, d[v].at.y));
     }
     for (const bbm_element *i = m->element; i < m->element + m->elements; i++) {
         double longest = 0, change = 0;
         for (int a = i->first; a < i->first + i->n; a++) {
             const int b = bbm_next_vertex(i, a);
-            longest = fmax(longest, gap(x[a], x[b]));
-            change = fmax(change, gap(d[a], d[b]));
+            longest = fmax(longest, gap(x[a].at, x[b].at));
+            change = fmax(change, gap(d[a].at, d[b].at));
         }
         fair = fmin(fair, FAIR * (i->n == 3 ? 2 : 1) * i->A0 / longest / change);
     }
@@ -1068,7 +1064,7 @@ static int clip(const sample in[], int n, double level, double sign, sample out[
 
 static sample sample_of(const film *f, int frame, int v)
 {
-    return (sample){ at(f, 1, v).x, at(f, 1, v).y, f->s->frame[frame].value[v] };
+    return (sample){ at(f, 1, v).x, at(f, 1, v).y, f->s->frame[frame].vertex[v].value };
 }
 
 /* The share of an element, triangle by triangle, in the band from level[0] to level[1]. */

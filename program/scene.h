@@ -30,16 +30,17 @@ typedef struct {                /* of a closed contact                          
 
 enum { SCENE_MOVED = 4, SCENE_GONE = 8 };       /* a support not where it began; no block there   */
 
+/* Of a vertex: where it is [m]; the load of its node [N]; the value of the field, NaN: its block is
+ * gone; BBM_X + BBM_Y and SCENE_MOVED, or SCENE_GONE. */
+typedef struct { bbm_point at, load; double value; int held; } scene_vertex;
+
 typedef struct {                /* what was recorded at one time                                  */
     double time;                /* s                                                              */
     int    call;                /* of scene_record, from 0                                        */
     int    forces, lines;       /* lines: loads of edges                                          */
     int    edges;               /* of the boundary: further ones open in a crack, later           */
-    double (*load)[2];          /* N        [nodes]                                               */
-    bbm_point *at;              /* m        [vertices]                                            */
-    int    *held;               /*          [vertices] BBM_X + BBM_Y, SCENE_MOVED; SCENE_GONE     */
+    scene_vertex *vertex;       /*          [vertices]                                            */
     scene_force *force;         /*          [forces]                                              */
-    double *value;              /*          [vertices] of the field; NaN: the block is gone       */
 } scene_frame;
 
 typedef struct {                /* a point of an element: the sum of share times vertex           */

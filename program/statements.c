@@ -139,7 +139,6 @@ static int read_dynamic(model_reader *r)
     *factor = 1;
     r->p->dynamic = 1;
     const int good = model_options(r, 2, LENGTH(o), o);
-    r->p->ramp = o[5].seen ? r->p->ramp : INFINITY;
     return good && (!o[2].seen || !o[3].seen
                     || model_blame(r, "velocity_factor and damping, which are the same, expected "
                                    "one"));
@@ -657,7 +656,7 @@ int model_read(const char *path, int lets, char *const let[], model *p)
         .stage_of.what = "stage",
     };
 
-    *p = (model){ .field = "mises", .now = -1 };
+    *p = (model){ .field = "mises", .ramp = INFINITY, .now = -1 };
     if (bbm_beyond_new(&p->m))
         return model_out_of_memory(&r), p->status;
     p->m->par.p_n = p->m->par.p_s = p->m->par.friction = -1;        /* not given */
