@@ -217,17 +217,6 @@ static int compare_along(const void *a, const void *b)
                                 : p->node - q->node;
 }
 
-/* The nodes in their order along a line on which few of a stack or of a grid come together. */
-static int sort_nodes(model_reader *r)
-{
-    r->order = model_keep(r, r->nodes, sizeof *r->order);
-    for (int n = 0; n < r->nodes && r->order; n++)
-        r->order[n] = (model_order){ r->node[n].x + SLANT * r->node[n].y, n };
-    if (r->order)
-        qsort(r->order, (size_t)r->nodes, sizeof *r->order, compare_along);
-    return r->order != NULL;
-}
-
 int model_build(model_reader *r)
 {
     model *p = r->p;
@@ -236,8 +225,12 @@ int model_build(model_reader *r)
         return model_fail(r, r->whole, "the model has no element, expected: block ..., grid ..., "
                           "mesh FILE or element ...");
     p->gone = model_keep(r, r->blocks, sizeof *p->gone);
-    if (!p->gone || !find_bodies(r) || !sort_nodes(r) || !copy_nodes(r) || !add_nodes(r))
+    r->order = model_keep(r, r->nodes, sizeof *r->order);
+    if (!p->gone || !r->order || !find_bodies(r) || !copy_nodes(r) || !add_nodes(r))
         return 0;
+    for (int n = 0; n < r->nodes; n++)          /* few of a stack or of a grid come together */
+        r->order[n] = (model_order){ r->node[n].x + SLANT * r->node[n].y, n };
+    qsort(r->order, (size_t)r->nodes, sizeof *r->order, compare_along);
     for (int k = 0; k < r->materials; k++)
         bbm_add_material(p->m, &r->material[k], NULL);
     p->element = model_keep(r, r->elements, sizeof *p->element);

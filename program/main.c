@@ -260,21 +260,6 @@ static bbm_status run_all(run *r, write_results *w, progress *s)
     return status;
 }
 
-/* The message of a run that failed or was stopped. */
-static void report(const run *r, bbm_status status, const write_results *w)
-{
-    const bbm_model *m = r->p->m;
-    char text[500];
-
-    run_says(r, status, text);
-    if (stopped && !w->status)
-        fprintf(stderr, "%s: interrupted at %sstep %d of %d, t = %g s; what was computed until "
-                "then is in %s\n", w->source, r->has_begun ? "" : "settling, ", m->info.step,
-                r->has_begun ? m->par.steps : r->p->settle, m->info.t, w->folder);
-    else if (status)
-        fprintf(stderr, "%s: %s\n", w->source, text);
-}
-
 /* Looked at before each solution: the matrix if there are results and it is wanted, and whether to
  * stop. */
 static int before_solution(const bbm_model *m, void *results)
@@ -343,7 +328,7 @@ static int run_model(write_results *w, int quiet)
     progress s = { .shown = !quiet, .line = time(NULL) };
     bbm_status status = BBM_OK;
     run r = { .p = p, .settling = p->settle };
-    char text[300];
+    char text[500];
     int all_met = 1;
 
     catch_signals();
@@ -353,7 +338,13 @@ static int run_model(write_results *w, int quiet)
         status = run_all(&r, w, &s);
         fputs(s.begun ? "\n" : "", stderr);
         write_close(w);
-        report(&r, status, w);
+        run_says(&r, status, text);
+        if (stopped && !w->status)
+            fprintf(stderr, "%s: interrupted at %sstep %d of %d, t = %g s; what was computed until "
+                    "then is in %s\n", w->source, r.has_begun ? "" : "settling, ", p->m->info.step,
+                    r.has_begun ? p->m->par.steps : p->settle, p->m->info.t, w->folder);
+        else if (status)
+            fprintf(stderr, "%s: %s\n", w->source, text);
     }
     for (int k = 0; k < p->bolts && !quiet; k++)
         if (p->bolt[k].k == 0)

@@ -10,8 +10,6 @@
 #define MODEL_H
 
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "../beyond/beyond.h"
 #include "field.h"

@@ -213,24 +213,6 @@ static void read_entities(mesh *m)
 
 /* ------------------------------------------------------------------------------ nodes, elements */
 
-/* 4.1: the number of entities, of entries, the least and the largest number; for each entity its
- * dimension, tag, type of elements or whether its nodes have parameters, n; and n entries.
- * 2: the number of entries, which are read one by one. */
-static void read_entries(mesh *m, void (*read)(mesh *m, const int of[4]))
-{
-    int head[4], of[4] = { 0, 0, 0, 1 };
-
-    if (m->version == 41)
-        read_head(m, head);
-    else
-        head[0] = head[1] = whole(m, 0);
-    for (m->announced = head[1]; more(m, &head[0]); m->entries += of[3]) {
-        if (m->version == 41)
-            read_head(m, of);
-        read(m, of);
-    }
-}
-
 /* n numbers; n times x y z and parameters, as many as the dimension says that stands before them
  * in $ParametricNodes. */
 static void read_some_nodes(mesh *m, const int of[4])
@@ -254,8 +236,6 @@ static void read_some_nodes(mesh *m, const int of[4])
             number(m);
     }
 }
-
-static void read_nodes(mesh *m) { read_entries(m, read_some_nodes); }
 
 static const char *name_of(const mesh *m, int dimension, const char *tag)
 {
@@ -358,7 +338,23 @@ static void read_some_elements(mesh *m, const int of[4])
     }
 }
 
-static void read_elements(mesh *m) { read_entries(m, read_some_elements); }
+/* 4.1: the number of entities, of entries, the least and the largest number; for each entity its
+ * dimension, tag, type of elements or whether its nodes have parameters, n; and n entries.
+ * 2: the number of entries, which are read one by one. */
+static void read_entries(mesh *m)
+{
+    int head[4], of[4] = { 0, 0, 0, 1 };
+
+    if (m->version == 41)
+        read_head(m, head);
+    else
+        head[0] = head[1] = whole(m, 0);
+    for (m->announced = head[1]; more(m, &head[0]); m->entries += of[3]) {
+        if (m->version == 41)
+            read_head(m, of);
+        (*m->section == 'E' ? read_some_elements : read_some_nodes)(m, of);
+    }
+}
 
 /* ------------------------------------------------------------------------------------- the file */
 
@@ -394,9 +390,9 @@ static void read_section(mesh *m)
         { "PhysicalNames", read_names, 0 },
         { "Entities", m->version == 2 ? NULL : read_entities, 0 },
         { "PartitionedEntities", read_entities, 0 },
-        { "Nodes", read_nodes, 1 },
-        { "ParametricNodes", read_nodes, 1 },
-        { "Elements", read_elements, 2 },
+        { "Nodes", read_entries, 1 },
+        { "ParametricNodes", read_entries, 1 },
+        { "Elements", read_entries, 2 },
         { m->section, NULL, 0 },
     };
     int k = 0;

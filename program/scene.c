@@ -111,22 +111,6 @@ void scene_free(scene *s)
     s->frames = s->calls = s->failed = 0;
 }
 
-/* Makes room for one more: frames whose turn has not come go. That is the last one alone, or half
- * of them, if the turn of all had come. */
-static void thin_out(scene *s)
-{
-    int kept = 0;
-
-    if (s->frames == FRAMES && s->frame[FRAMES - 1].call % s->every == 0)
-        s->every *= 2;
-    for (int k = 0; k < s->frames; k++)
-        if (s->frame[k].call % s->every)
-            drop_frame(&s->frame[k]);
-        else
-            s->frame[kept++] = s->frame[k];
-    s->frames = kept;
-}
-
 /* With what holds each vertex now, and the loads. */
 static int make_frame(scene_frame *f, const bbm_model *m)
 {
@@ -191,9 +175,12 @@ static int fill_frame(scene_frame *f, const bbm_model *m, const field *shown, in
     return finite;
 }
 
+/* Frames whose turn has not come go, to make room for this one: the last one alone, or half of all,
+ * if the turn of all had come. */
 void scene_record(scene *s, const bbm_model *m)
 {
     scene_frame f = { .time = m->info.t, .call = s->calls++ };
+    int kept = 0;
 
     if (!s->frame) {
         s->frame = calloc(FRAMES, sizeof *s->frame);
@@ -216,8 +203,15 @@ void scene_record(scene *s, const bbm_model *m)
                                                  N < 0 ? PULLED : (int)c->state,
                                                  { corner->block, m->edge[c->edge].block } };
     }
-    thin_out(s);
-    s->frame[s->frames++] = f;
+    if (s->frames == FRAMES && s->frame[FRAMES - 1].call % s->every == 0)
+        s->every *= 2;
+    for (int k = 0; k < s->frames; k++)
+        if (s->frame[k].call % s->every)
+            drop_frame(&s->frame[k]);
+        else
+            s->frame[kept++] = s->frame[k];
+    s->frame[kept] = f;
+    s->frames = kept + 1;
 }
 
 /* -------------------------------------------------------------------------------------- blocks */
@@ -726,18 +720,8 @@ static void put_force_entry(film *f, plot_legend *l, int kind)
     plot_put(&f->p, "</g></g>\n");
 }
 
-/* How far the film is: full at its last frame. The whole of it takes the clicks. */
-static void put_bar(film *f, plot_box b)
-{
-    plot_rectangle(&f->p, b, "id=\"bar\" fill=\"#dddddd\" style=\"touch-action: none\"");
-    plot_put(&f->p, "<g fill=\"#0072b2\" pointer-events=\"none\">"
-             "<rect x=\"%.1f\" y=\"%.1f\" height=\"%g\"><animate attributeName=\"width\" "
-             "dur=\"%.3gs\" repeatCount=\"indefinite\" values=\"0;%.1f;%.1f\" "
-             "keyTimes=\"0;%.5f;1\"/></rect></g>\n",
-             b.x, b.y, b.h, f->seconds, b.w, b.w, (f->s->frames - 1.0) / (value_count(f) - 1));
-}
-
-/* Returns the number of rows. */
+/* Returns the number of rows. A bar, the whole of which takes the clicks, is full at the last frame.
+ */
 static int draw_legend(film *f, double x, double y, double room)
 {
     plot_legend l = { x, y, room, 0, 0 };
@@ -769,14 +753,19 @@ static int draw_legend(film *f, double x, double y, double room)
     }
     if (f->seconds > 0) {
         const double time = f->s->frame[last].time - f->s->frame[0].time;
-        snprintf(text, sizeof text, "%.2g × real speed",
-                 time * (value_count(f) - 1) / (last * f->seconds));
+        const double all = value_count(f) - 1;
+        snprintf(text, sizeof text, "%.2g × real speed", time * all / (last * f->seconds));
         put_entry(f, &l, "", text);
         plot_put(&f->p, "<g id=\"how\" visibility=\"hidden\">");
         put_entry(f, &l, "", "click, space: stop or play");
         put_entry(f, &l, "", "arrow keys: step; Home, End, bar: go there");
-        put_bar(f, (plot_box){ x, y + PLOT_ROW * l.rows++ - 6, room, 12 });
-        plot_put(&f->p, "</g>\n");
+        const plot_box b = { x, y + PLOT_ROW * l.rows++ - 6, room, 12 };
+        plot_rectangle(&f->p, b, "id=\"bar\" fill=\"#dddddd\" style=\"touch-action: none\"");
+        plot_put(&f->p, "<g fill=\"#0072b2\" pointer-events=\"none\">"
+                 "<rect x=\"%.1f\" y=\"%.1f\" height=\"%g\"><animate attributeName=\"width\" "
+                 "dur=\"%.3gs\" repeatCount=\"indefinite\" values=\"0;%.1f;%.1f\" "
+                 "keyTimes=\"0;%.5f;1\"/></rect></g>\n</g>\n",
+                 b.x, b.y, b.h, f->seconds, b.w, b.w, last / all);
     }
     return l.rows;
 }

@@ -397,19 +397,6 @@ static void warn_of_shaking(const model *p, const char *path)
                    "not feel all of it", p->shakings, from, to, p->shake, dt, end);
 }
 
-/* A hit acts in no time: its force is its impulse over a step. */
-static void warn_of_joints(const model *p, const char *path)
-{
-    const bbm_beyond *b = p->m->beyond;
-    double tension = b->tension;
-
-    for (int k = 0; k < b->joints; k++)
-        tension = fmax(tension, b->joint[k].tension);
-    if (p->dynamic && b->restitution >= 0 && tension > 0)
-        warn(path, "with restitution a hit pulls at a joint by its impulse over dt: dt decides "
-                   "whether tension bears it; without restitution springs do");
-}
-
 /* A side of few grid points that touches a longer one of many: in dynamics the longer one has no
  * contacts of its own. */
 static void warn_of_coarse_sides(const model *p, const char *path)
@@ -432,15 +419,23 @@ static void warn_of_coarse_sides(const model *p, const char *path)
 
 /* ------------------------------------------------------------------- before, in and after a run */
 
+/* A hit acts in no time: its force is its impulse over a step. */
 void warn_before(const model *p, const char *path)
 {
-    if (p->dynamic && p->m->beyond->multiplier_rounds > 0)
+    const bbm_beyond *b = p->m->beyond;
+    double tension = b->tension;
+
+    if (p->dynamic && b->multiplier_rounds > 0)
         warn(path, "bond augment has no part in dynamics; a larger alpha stiffens bonds");
     warn_of_loads(p, path);
     warn_of_bodies(p, path);
     warn_of_cells(p, path);
     warn_of_shaking(p, path);
-    warn_of_joints(p, path);
+    for (int k = 0; k < b->joints; k++)
+        tension = fmax(tension, b->joint[k].tension);
+    if (p->dynamic && b->restitution >= 0 && tension > 0)
+        warn(path, "with restitution a hit pulls at a joint by its impulse over dt: dt decides "
+                   "whether tension bears it; without restitution springs do");
 }
 
 void warn_in_step(const run *r, const char *path, int *said)
