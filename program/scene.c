@@ -609,20 +609,6 @@ static void put_support(film *f, int held, point from, point size, double share)
     plot_point(&f->p, " ", b.x + 0.7 * d.y, b.y - 0.7 * d.x);
 }
 
-static void draw_forces(film *f, int frame)
-{
-    plot_put(&f->p, "<path fill=\"#ffffff\" stroke=\"#333333\" d=\"");
-    visit_supports(f, frame, put_support);
-    plot_put(&f->p, "\"/>\n");
-    for (int kind = 0; kind < KINDS; kind++) {
-        if (!f->seen[kind])
-            continue;
-        begin_arrows(f, kind);
-        visit_forces(f, frame, kind, put_arrow);
-        plot_put(&f->p, "</g>\n");
-    }
-}
-
 #define THRUST "fill=\"none\" stroke=\"#ee7733\" stroke-width=\"2.5\" stroke-linecap=\"round\""
 
 /* What a block feels of two others, and the third time of all the rest: how many touch it, 3 for
@@ -779,21 +765,6 @@ static void widen_window(film *f, int kind, point from, point size, double share
     plot_widen(f->window, from.x + size.x / f->scale, from.y + size.y / f->scale);
 }
 
-/* The window gets a margin, and the panel its size, on a page of about 860 x 660 pixels. */
-static void arrange(film *f)
-{
-    double *x = f->window[0], *y = f->window[1];
-    const double more = 0.03 * fmax(x[1] - x[0], y[1] - y[0]);
-    const double w = x[1] - x[0] + 2 * more, h = y[1] - y[0] + 2 * more;
-    const double around = LEFT + RIGHT, over = f->over + UNDER;
-
-    x[0] -= more, y[0] -= more;
-    x[1] += more, y[1] += more;
-    f->scale = fmin((860 - around) / w, (660 - over) / h);
-    f->w = f->scale * w + around;
-    f->h = f->scale * h + over;
-}
-
 /* Crosses of blocks that are held, and where one before them, half as large at least, is nearer
  * than the longest arrow. */
 static void hide_crosses(film *f)
@@ -809,10 +780,12 @@ static void hide_crosses(film *f)
 }
 
 /* Window and scale. How long an arrow is in metres depends on the scale of the panel, and that on
- * the window, which holds all arrows: by repetition. Those of contacts are not longer than the
- * mean of the blocks that can move. */
+ * the window, which holds all arrows and has a margin: by repetition. Those of contacts are not
+ * longer than the mean of the blocks that can move. The page has about 860 x 660 pixels. */
 static void measure(film *f)
 {
+    double *x = f->window[0], *y = f->window[1];
+    const double around = LEFT + RIGHT, over = f->over + UNDER;
     double sizes = 0, blocks = 0;               /* their mean is NaN, and no bound, of none */
 
     for (const body *b = f->body; b < f->body + f->bodies; b++) {
@@ -838,7 +811,13 @@ static void measure(film *f)
             for (int kind = 0; kind < KINDS; kind++)
                 visit_forces(f, i, kind, round > 0 ? widen_window : NULL);
         }
-        arrange(f);
+        const double more = 0.03 * fmax(x[1] - x[0], y[1] - y[0]);
+        const double w = x[1] - x[0] + 2 * more, h = y[1] - y[0] + 2 * more;
+        x[0] -= more, y[0] -= more;
+        x[1] += more, y[1] += more;
+        f->scale = fmin((860 - around) / w, (660 - over) / h);
+        f->w = f->scale * w + around;
+        f->h = f->scale * h + over;
     }
 }
 
@@ -935,7 +914,16 @@ static void draw_state(film *f, int frame)
     char time[60];
 
     draw_bolts(f, frame);
-    draw_forces(f, frame);
+    plot_put(&f->p, "<path fill=\"#ffffff\" stroke=\"#333333\" d=\"");
+    visit_supports(f, frame, put_support);
+    plot_put(&f->p, "\"/>\n");
+    for (int kind = 0; kind < KINDS; kind++) {
+        if (!f->seen[kind])
+            continue;
+        begin_arrows(f, kind);
+        visit_forces(f, frame, kind, put_arrow);
+        plot_put(&f->p, "</g>\n");
+    }
     if (f->thrust)
         draw_thrust(f, frame);
     snprintf(time, sizeof time, "t = %.6g s", f->s->frame[frame].time);
