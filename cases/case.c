@@ -44,7 +44,9 @@ void case_print_parameters(const bbm_model *m)
     printf(isinf(p->dt) ? "static" : "%g", p->dt);
     printf(" | %d | %g | %g | %g | %g |", p->steps, p->tolerance, p->pcg.omega, p->pcg.tolerance,
            p->alpha);
-    printf(touch ? " %g | %g |\n" : "\n", p->p_n, p->p_s);
+    if (touch)
+        printf(" %g | %g |", p->p_n, p->p_s);
+    printf("\n");
 }
 
 /* --------------------------------------------------------------------------------------- meshes */

@@ -609,11 +609,14 @@ int write_check(write_results *w)
 
 int write_open(write_results *w)
 {
-    char side[LONGEST];
+    static const char *const ending[] = { "", ".rhs", ".mass" };
+    char name[LONGEST];
 
-    snprintf(side, sizeof side, "%s.rhs", w->matrix ? w->matrix : "");
-    if (w->matrix && (!spare_input(w, w->matrix) || !spare_input(w, side)))
-        return 0;
+    for (int k = 0; k < LENGTH(ending) && w->matrix; k++) {
+        snprintf(name, sizeof name, "%s%s", w->matrix, ending[k]);
+        if (!spare_input(w, name))
+            return 0;
+    }
     if (!open_folder(w) || !empty_folder(w, 0)
         || !open_file(w, &w->history, path_of(w, "history.csv"))
         || !open_file(w, &w->summary, path_of(w, "summary.csv"))) {

@@ -559,8 +559,9 @@ START_TEST(a_file_that_a_run_reads_is_refused_as_a_place_for_results)
     static const struct { const char *record, *options; } call[] = {
         { "history.csv", "run.model -o ." }, { "elsewhere.csv", "run.model -o kept" },
         { "here.csv", "nodes.csv -o ." }, { "here.csv", "K.mtx -m K.mtx" },
-        { "here.csv", "K.mtx.rhs -m K.mtx" }, { "here.csv", "bbm.lock -o ." },
-        { "here.csv", "- -o . < summary.csv" }, { "history.csv", "--check run.model -o ." },
+        { "here.csv", "K.mtx.rhs -m K.mtx" }, { "here.csv", "K.mtx.mass -m K.mtx" },
+        { "here.csv", "bbm.lock -o ." }, { "here.csv", "- -o . < summary.csv" },
+        { "history.csv", "--check run.model -o ." },
     };
     char text[LONG];
 
@@ -569,7 +570,7 @@ START_TEST(a_file_that_a_run_reads_is_refused_as_a_place_for_results)
     write_text("out/model/reads/run.model", text);
     ck_assert_int_eq(shell("cd out/model/reads; printf '0,0\\n1,1\\n' | tee history.csv here.csv > "
                            "kept/nodes.csv; ln -s kept/nodes.csv elsewhere.csv; for f in nodes.csv K.mtx "
-                           "K.mtx.rhs bbm.lock summary.csv; do cp run.model $f; done; rm -rf ../was; cp -r . ../was; "
+                           "K.mtx.rhs K.mtx.mass bbm.lock summary.csv; do cp run.model $f; done; rm -rf ../was; cp -r . ../was; "
                            "../../../%s/bbm -q %s 2> ../reads.err", BUILD, call[_i].options), 1);
     check_text("out/model/reads.err", " cannot be written: this run reads it");
     ck_assert_int_eq(shell("diff -r out/model/reads out/model/was"), 0);
@@ -797,7 +798,7 @@ Suite *files_suite(void)
     tcase_add_test(t, a_second_signal_ends_a_run_at_once_and_the_next_run_removes_what_it_left);
     tcase_add_test(t, a_second_run_in_the_same_folder_is_refused_and_disturbs_nothing);
     tcase_add_test(t, a_run_whose_folder_another_one_has_made_anew_leaves_it_alone);
-    tcase_add_loop_test(t, a_file_that_a_run_reads_is_refused_as_a_place_for_results, 0, 8);
+    tcase_add_loop_test(t, a_file_that_a_run_reads_is_refused_as_a_place_for_results, 0, 9);
     tcase_add_test(t, a_pipe_under_the_name_of_a_table_is_refused);
     tcase_add_test(t, a_run_removes_what_an_earlier_one_left_of_its_own_and_nothing_else);
     tcase_add_loop_test(t, what_is_left_out_has_its_default, 0, 4);
