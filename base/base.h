@@ -173,7 +173,7 @@ struct bbm_contact_scratch {
     bbm_contact *contact;       /* [contacts] of the pairs                                      */
     /* --- open_close.c --- */
     int passes, friction_passes;
-    int few_until;              /* before this pass few contacts change their states in each    */
+    int one_until;              /* before this pass one contact alone changes its state in each */
     uint64_t seen[BBM_MAX_PASSES + 1];          /* the states of each pass, as a number         */
     /* --- detect.c --- */
     int pairs;

@@ -4,8 +4,8 @@
  * The iteration. N of a sliding contact depends on its friction, and the friction on N. So solve
  * with the friction of the last N until both agree; a hook may need fewer solutions. Only then look
  * at the states: all that do not fit their forces change, and a new solution follows. If a set of
- * states comes back, the iteration would cycle, and where many change together, forces may jump to
- * and fro between them. Then only those change that fit worst at both of their elements.
+ * states comes back, the iteration would cycle. Then, for as many passes as there have been, only
+ * the contact that fits worst changes.
  *
  * Nothing moves before all contacts fit. If they never do, the step is done again as if it had not
  * been tried: in halves, or in statics in another way.
@@ -22,9 +22,8 @@
 #define DIGITS 1e-15
 #define FIT 2e-4
 
-/* The most passes in a row that change friction forces alone; and after how many passes few states
- * change in each. */
-enum { FRICTION_PASSES = 100, MANY = 10 };
+/* The most passes in a row that change friction forces alone. */
+enum { FRICTION_PASSES = 100 };
 
 /* --------------------------------------------------------------------- the contacts of a step */
 
@@ -82,7 +81,7 @@ bbm_status bbm_detect_contacts(bbm_model *m, int *same)
         return status;
     for (int k = 0; k < w->contacts; k++)
         begin_contact(m, &w->contact[k]);
-    w->passes = w->friction_passes = w->few_until = 0;
+    w->passes = w->friction_passes = w->one_until = 0;
     return BBM_OK;
 }
 
@@ -206,40 +205,26 @@ static double misfit(const bbm_model *m, const bbm_contact *c)
     return fabs(fabs(c->T) - bbm_shear_strength(&c->strength, c->N));
 }
 
-/* Whether no contact of its elements fits worse; of two alike the first one. Supports are common to
- * many. */
-static int fits_worst(const bbm_model *m, const bbm_contact *c, double most[])
-{
-    for (int k = 0; k < 2; k++)
-        if (m->K->body[c->element[k]] >= 0 && misfit(m, c) < most[c->element[k]])
-            return 0;
-    most[c->element[0]] = most[c->element[1]] = INFINITY;
-    return 1;
-}
-
-/* Changes all states that do not fit the solution. After MANY passes, or where they cycle, those
- * alone that fit worst at both of their elements: where many change together, forces jump to and
- * fro between them. A contact whose P crosses several lines of a corner waits until all others fit,
- * since they change the way of P. The worst are the same in any order of the blocks, but for a tie.
- * Returns the number of changes. */
+/* Changes all states that do not fit the solution, or only the one that fits worst. A contact whose
+ * P crosses several lines of a corner waits until all others fit, since they change the way of P.
+ * The worst is the same in any order of the blocks, but for a tie. Returns the number of changes.
+ */
 static int change_states(bbm_model *m)
 {
     bbm_contact_scratch *w = m->scratch;
-    const int few = w->passes < w->few_until || w->passes >= MANY;
-    double *most = m->K->y;                     /* [elements] the largest misfit at each */
+    const int one = w->passes < w->one_until;
+    bbm_contact *worst = NULL;
     int changes = 0, sure = 0;
 
-    memset(most, 0, (size_t)m->elements * sizeof *most);
     for (bbm_contact *c = w->contact; c < w->contact + w->contacts; c++) {
         c->trial.next_state = find_next_state(m, c);
         c->trial.unsettled = c->trial.next_state != c->state;
-        for (int k = 0; k < 2 && c->trial.unsettled; k++)
-            most[c->element[k]] = fmax(most[c->element[k]], misfit(m, c));
+        if (c->trial.unsettled && (!worst || misfit(m, c) > misfit(m, worst)))
+            worst = c;
         sure |= c->trial.unsettled && !bbm_is_at_corner(m, c);
     }
     for (bbm_contact *c = w->contact; c < w->contact + w->contacts; c++) {
-        if (!c->trial.unsettled
-            || (few ? !fits_worst(m, c, most) : sure && bbm_is_at_corner(m, c)))
+        if (!c->trial.unsettled || (one ? c != worst : sure && bbm_is_at_corner(m, c)))
             continue;
         if (c->state == BBM_OPEN)
             close_contact(m, c);
@@ -254,9 +239,9 @@ static int change_states(bbm_model *m)
 
 /* Notes the states of this pass, with the direction of each slip, as one number, a hash (FNV-1a).
  * An earlier pass with the same number had the same states: the iteration cycles, and from now on
- * few contacts change in each pass, for as many passes as there have been. The last pass may have
- * had them: then a hook has only renewed the vectors. The hash takes 1 to 5, as negative numbers
- * would collide. */
+ * one contact alone changes in each pass, for as many passes as there have been. The last pass may
+ * have had them: then a hook has only renewed the vectors. The hash takes 1 to 5, as negative
+ * numbers would collide. */
 static void note_states(bbm_contact_scratch *w)
 {
     uint64_t hash = 14695981039346656037u;
@@ -267,7 +252,7 @@ static void note_states(bbm_contact_scratch *w)
     }
     for (int p = 0; p < w->passes; p++)
         if (w->seen[p] == hash && w->seen[w->passes - 1] != hash)
-            w->few_until = 2 * w->passes;
+            w->one_until = 2 * w->passes;
     w->seen[w->passes] = hash;
 }
 

@@ -59,6 +59,8 @@
 #define GAIN 1e-9
 #define WORKED 1e-7
 
+enum { SOFTER = 10 };           /* how often the springs of a jump double from where they begin */
+
 /* The normal velocity of P1, where elements move as those of `of`. */
 static double normal_velocity(const bbm_model *m, const bbm_contact *c, const bbm_element of[])
 {
@@ -258,13 +260,14 @@ static void start_gaps(bbm_model *m, const bbm_model *end)
     }
 }
 
-/* The contacts of `step`, the model at the start of the step. */
-static void start_contacts(bbm_model *m, const bbm_model *step)
+/* The contacts of `step`, the model at the start of the step, with springs as stiff as p_n is.
+ * `again`: in the states that softer ones have found. */
+static void start_contacts(bbm_model *m, const bbm_model *step, int again)
 {
     const double E = m->beyond->restitution;
 
     for (int k = 0; k < m->scratch->contacts; k++) {
-        bbm_contact *c = &m->scratch->contact[k];
+        bbm_contact *c = &m->scratch->contact[k], found = *c;
         *c = m->beyond->jump_of[k];
         const bbm_account *of = account_of(m, m->edge[c->corner].element);
         bbm_spring v[2], from_end[2];
@@ -279,23 +282,31 @@ static void start_contacts(bbm_model *m, const bbm_model *step)
         c->strength = of->jumps < -1 ? (bbm_strength){ 0 } : c->strength;
         c->trial = (bbm_trial){ .was_closed = 1, .time_left = 1, .entrance = { -1, -1, -1, -1 },
                                 .N_of_friction = c->trial.N_of_friction };
+        c->state = again ? found.state : c->state;
+        c->sign = again ? found.sign : c->sign;
     }
 }
 
-/* Solves until all contacts fit; if they do not, notes which components did not settle. */
+/* Solves until all contacts fit; if they do not, notes which components did not settle. Where many
+ * contacts hit together the stiffest springs may find no states, but softer ones do. Then springs
+ * begin soft and become stiffer, each time with the states that were found last. */
 static bbm_status solve(bbm_model *m, const bbm_model *step, const bbm_model *end)
 {
     bbm_status status = BBM_OK;
-    bbm_pass pass = BBM_PASS_AGAIN;
+    bbm_pass pass = BBM_PASS_DONE;
 
-    m->scratch->passes = m->scratch->friction_passes = m->scratch->few_until = 0;
     start_elements(m, end);
     start_gaps(m, end);
-    start_contacts(m, step);
-    while (!status && pass == BBM_PASS_AGAIN) {
-        bbm_assemble(m);
-        status = bbm_solve(m->K, m->F, m->D, &m->par.pcg, &m->info.pcg);
-        pass = bbm_open_close(m);
+    const double p = m->par.p_n;
+    for (int k = 0, soft = 0; k >= 0 && !status; soft = 1) {
+        m->par.p_n = m->par.p_s = ldexp(p, -k);
+        start_contacts(m, step, soft && k < SOFTER);
+        m->scratch->passes = m->scratch->friction_passes = m->scratch->one_until = 0;
+        for (pass = BBM_PASS_AGAIN; !status && pass == BBM_PASS_AGAIN; pass = bbm_open_close(m)) {
+            bbm_assemble(m);
+            status = bbm_solve(m->K, m->F, m->D, &m->par.pcg, &m->info.pcg);
+        }
+        k = pass == BBM_PASS_DONE ? k - 1 : soft ? (k > 0) - 1 : SOFTER;
     }
     for (int i = 0; i < m->elements; i++)
         m->beyond->account[i].unsettled = status != BBM_OK;

@@ -117,7 +117,7 @@ bbm_pass bbm_break_joints(bbm_model *m)
         if (isinf(m->par.dt) && c->state == BBM_SLIDE && c->strength.shear > 0
             && bbm_shear_strength(&c->strength, c->N) > 0) {
             c->area = c->strength.shear = c->strength.tension = 0;
-            m->scratch->passes = m->scratch->few_until = m->beyond->round = 0;
+            m->scratch->passes = m->scratch->one_until = m->beyond->round = 0;
             next = BBM_PASS_AGAIN;
         }
     return next;

@@ -42,7 +42,7 @@ bbm_pass bbm_take_over(bbm_model *m)
 
     if (!isinf(m->par.dt) || m->beyond->round++ >= m->beyond->multiplier_rounds)
         return BBM_PASS_DONE;
-    m->scratch->passes = m->scratch->few_until = 0;
+    m->scratch->passes = m->scratch->one_until = 0;
     for (bbm_gap *g = m->gap; g < m->gap + m->gaps; g++) {
         bbm_gap_length(m, g, d);
         for (int r = 0; r < 2 && !g->elastic; r++) {        /* at the wall Tj = 0 */

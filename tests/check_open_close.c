@@ -186,7 +186,7 @@ START_TEST(the_contact_that_fits_worst_changes_first)
     bbm_model *m = block_on_table(30);
     int n, closed = 0;
 
-    m->scratch->few_until = 1;
+    m->scratch->one_until = 1;
     m->D[7] = -1e-2;
     m->D[8] = _i ? 1e-3 : -1e-3;
     (void)bbm_open_close(m);
