@@ -14,12 +14,12 @@
 #include "check.h"
 
 /* s of the processor, which other work on the machine does not change: for a test, or a program that
- * it runs, and for all of them; the quick ones take 15. Tests that hang end after their SHARE, and
+ * it runs, and for all of them; the quick ones take 60. Tests that hang end after their SHARE, and
  * when hundreds hang, one after the other, all end after LIMIT. */
 #ifdef CASES
 enum { SHARE = 60, LIMIT = 1200 };
 #else
-enum { SHARE = 4, LIMIT = 80 };
+enum { SHARE = 4, LIMIT = 240 };
 #endif
 
 /* Before each group, in the process that runs them all. */
