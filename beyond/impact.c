@@ -59,7 +59,8 @@
 #define GAIN 1e-9
 #define WORKED 1e-7
 
-enum { SOFTER = 10 };           /* how often the springs of a jump double from where they begin */
+/* How often springs double that begin soft. */
+enum { SOFTER = 10 };
 
 /* The normal velocity of P1, where elements move as those of `of`. */
 static double normal_velocity(const bbm_model *m, const bbm_contact *c, const bbm_element of[])
@@ -289,7 +290,8 @@ static void start_contacts(bbm_model *m, const bbm_model *step, int again)
 
 /* Solves until all contacts fit; if they do not, notes which components did not settle. Where many
  * contacts hit together the stiffest springs may find no states, but softer ones do. Then springs
- * begin soft and become stiffer, each time with the states that were found last. */
+ * begin 2^-SOFTER times as stiff and double, each time with the states that were found last. If a
+ * softer one finds none, the stiffest are tried once more, for the components that settle. */
 static bbm_status solve(bbm_model *m, const bbm_model *step, const bbm_model *end)
 {
     bbm_status status = BBM_OK;

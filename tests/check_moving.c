@@ -455,7 +455,7 @@ START_TEST(a_pendulum_on_a_bolt_keeps_its_period)
 END_TEST
 
 /* Many bricks hit together. Stiff springs find no states of their contacts at once, but those that soft ones have found
- * fit: else these runs end in steps 37, 40 and 85. No energy is made, and hits and friction take some. */
+ * fit. No energy is made, and hits and friction take some. */
 START_TEST(a_wall_that_a_stone_hits_goes_on_with_a_restitution)
 {
     static const struct { const char *stone; double u, v, friction, restitution; } hit[] = {
