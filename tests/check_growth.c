@@ -17,11 +17,11 @@
 
 /* GROWTH [-]  twice as much, and a quarter for caches and for sorting
  * LEAST [s]   what takes less is the start of the program; MOST [s]: ended after that
- * TRIES       on a machine with other work to do: the least counts
+ * TRIES       at most, until it is small enough: on a machine with other work to do the least counts
  * SHARES      of the wrong models, one after the other */
 #define GROWTH 2.5
 #define LEAST 0.004
-enum { MOST = 4, TRIES = 5, SHARES = 4 };
+enum { MOST = 4, TRIES = 25, SHARES = 4 };
 
 /* A model: `before`; `each` for k = 0 .. n-1; `behind`. There @ stands for k, ^ for k + 1, $ for n. */
 typedef struct { const char *before, *each, *behind; int n; } growing;
