@@ -41,8 +41,8 @@ typedef struct {                /* energy.c: of an element, and of the component
     double pressed;             /* N m      sum f.X of what presses on element i, see stability.c */
     double held[2];             /* J        work of the supports of element i, in a part of a   */
                                 /*          step, and in the jump at its end                    */
-    int    struck;              /* impact.c: a support of the component changes its velocity at */
-                                /*          once (1), by more than contacts bear (2)            */
+    int    struck;              /* impact.c: velocities in the component change at once (1), by */
+                                /*          more than contacts bear (2)                         */
     int    jumps;               /* impact.c: the component does; -1: it keeps no shape; -2: nor */
                                 /*          does it rub                                         */
     double asked;               /* -        of the energy that hits are to give back            */

@@ -115,8 +115,8 @@ static int changes_evenly(const bbm_model *m, int node)
 }
 
 /* What closes in the step hits, and what was closed if its component is struck: the velocity of a
- * support has changed at once, and by more than a contact makes good by what it bears in the step.
- * But an unbroken joint does not hit. */
+ * support has changed at once, or the run begins after settling, and a contact comes faster than it
+ * makes good by what it bears in the step. But an unbroken joint does not hit. */
 static int may_hit(const bbm_model *m, const bbm_contact *c)
 {
     return !bbm_is_strong(c) && (!c->trial.was_closed || account_of(m, c->element[0])->struck > 1);
@@ -143,7 +143,7 @@ static void find_hits(const bbm_model *m)
     for (int i = 0; i < m->elements; i++)
         m->beyond->account[i].mass = m->beyond->account[i].jumps = m->beyond->account[i].struck = 0;
     for (const bbm_vertex *v = m->vertex; v < m->vertex + m->vertices; v++)
-        account_of(m, v->element)->struck |= !changes_evenly(m, v->node);
+        account_of(m, v->element)->struck |= m->info.t == 0 || !changes_evenly(m, v->node);
     for (const bbm_contact *c = m->scratch->contact; c < bbm_end_of_contacts(m); c++) {
         const double mobile = mobility(m, c->element[0]) + mobility(m, c->element[1]);
         const double bears = fmax(0, bbm_normal_force(m, c->trial.d_n0 - c->rest));

@@ -763,6 +763,29 @@ START_TEST(a_support_that_starts_hits_what_has_lain_on_it)
 }
 END_TEST
 
+/* A block that has settled on a table begins with a velocity into it: it hits as one that only touches
+ * does. Restitution 0 leaves it on the table. */
+START_TEST(a_settled_block_that_begins_with_a_velocity_hits)
+{
+    const double E = _i / 2.0;
+    bbm_model *m = hard_blocks(E, 30);
+
+    m->par.dt = 1e-3;
+    set_springs(m, 1e9, 4e8);
+    add_rectangle(m, 0, BASE, (rectangle){ -5, -1, 10, 1, .fixed = 1 });
+    add_rectangle(m, 1, ROCK, (rectangle){ 0, 0, 1, 1, .fixed = 0 });
+    ck_ok(bbm_prepare(m), m);
+    m->par.velocity_factor = 0;
+    run_steps(m, 10);
+    m->par.velocity_factor = 1;
+    m->info.t = m->info.step = 0;
+    m->element[1].V[1] = -1;
+    run_steps(m, 10);
+    ck_near(m->element[1].V[1], E > 0 ? E - 9.5e-3 * GRAVITY : 0, 1, 1e-3 + 1e-3 * GRAVITY);
+    ck_near(m->element[1].V[2], 0, 1, 1e-3);
+}
+END_TEST
+
 /* A joint with strength goes along, whatever hits give back, and stays one. */
 START_TEST(what_is_joined_to_a_support_goes_along_when_it_starts)
 {
@@ -915,6 +938,7 @@ Suite *impact_suite(void)
         { a_stack_that_slid_to_a_stop_with_a_restitution_sinks_no_further, 3 },
         { a_square_that_turns_over_a_rim_in_long_steps_makes_no_energy, 1 },
         { a_support_that_starts_hits_what_has_lain_on_it, 24 },
+        { a_settled_block_that_begins_with_a_velocity_hits, 3 },
         { what_is_joined_to_a_support_goes_along_when_it_starts, 1 },
         { what_is_squeezed_keeps_its_force_where_the_lid_starts_and_stops, 3 },
         { what_lies_on_a_table_sinks_in_no_start, 3 },
