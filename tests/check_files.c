@@ -468,8 +468,9 @@ START_TEST(an_interrupted_run_keeps_what_it_has_computed)
     char text[LONG];
     int status;
 
-    while (waitpid(child, &status, WNOHANG) == 0) {     /* timeout(1) sends two; many meet all moments */
-        for (int n = 0; n < 20; n++)
+    /* timeout(1) sends two; many meet all moments. One a second later would end the run at once. */
+    for (int round = 0; waitpid(child, &status, WNOHANG) == 0; round++) {
+        for (int n = 0; n < 20 && round < 200; n++)
             kill(child, call[k].number);
         nanosleep(&(struct timespec){ 0, 20000 }, NULL);
     }
