@@ -10,9 +10,9 @@
  *
  * and a solution that breaks this is wrong, whatever the reason. It is found out before anything
  * moves, and the step is done again with half the time step, like one whose contacts do not
- * settle. A step that does not keep velocities whole (velocity_factor below 1) takes energy away
- * on purpose; with `rotation` BBM_LINEAR, the paper's way, a block that turns swells and gains
- * energy by that. There the balance is left alone, or only told.
+ * settle. A step that keeps no velocities (velocity_factor 0) takes energy away on purpose; with
+ * `rotation` BBM_LINEAR, the paper's way, a block that turns swells and gains energy by that. There
+ * the balance is left alone, or only told.
  */
 #include "beyond.h"
 
@@ -35,12 +35,11 @@ double bbm_inertia_form(const bbm_element *e, const double V[6])
 }
 
 /* The energies of element i of the present geometry, at the start (0) or the end of a step (1).
- * Kinetic: with the velocity before its factor. Elastic: 1/2 t A0 s.E^-1 s with Hooke's law (7) and
+ * Kinetic: of the velocity that is `factor` times another one, with that one. Elastic: 1/2 t A0 s.E^-1 s with Hooke's law (7) and
  * s the stress, where steps are exact on the starting area:
  * s.E^-1 s = (sx^2 + sy^2 - 2 nu sx sy + 2 (1 + nu) sxy^2)/E. */
-static bbm_energy energy_of(const bbm_model *m, int i, int when)
+static bbm_energy energy_of(const bbm_model *m, int i, int when, double factor)
 {
-    const double factor = m->info.step > 0 || m->info.t > 0 ? m->par.velocity_factor : 1;
     const bbm_element *e = &m->element[i];
     const bbm_material *of = &e->material;
     const double *s = e->stress;
@@ -59,12 +58,15 @@ static bbm_energy energy_of(const bbm_model *m, int i, int when)
 
 static double sum_of(bbm_energy e) { return e.kinetic + e.elastic + e.springs; }
 
-/* The energies after the last step; none of a model that is not prepared. */
+/* The energies after the last step, before its velocities got their share; none of a model that is
+ * not prepared. */
 void bbm_energies(const bbm_model *m, bbm_energy *energy)
 {
+    const double factor = m->info.step > 0 || m->info.t > 0 ? m->par.velocity_factor : 1;
+
     *energy = (bbm_energy){ 0, 0, 0 };
     for (int i = 0; i < m->elements && m->is_prepared; i++) {
-        const bbm_energy e = energy_of(m, i, 0);
+        const bbm_energy e = energy_of(m, i, 0, factor);
         energy->kinetic += e.kinetic;
         energy->elastic += e.elastic;
         energy->springs += e.springs;
@@ -130,10 +132,10 @@ void bbm_find_accounts(bbm_model *m, const bbm_model *end)
     for (int i = 0; i < m->elements; i++) {
         bbm_account *of = &b->account[m->K->component[i]];
         const double *F = &m->F[6 * i], *load = &m->load[6 * i];
-        const double before = sum_of(energy_of(m, i, 0));
+        const double before = sum_of(energy_of(m, i, 0, 1));
         const double off = BBM_ROUNDING * hypot(m->element[i].x, m->element[i].y);
         of->moves |= bbm_has_inertia(m, i);
-        of->gain += sum_of(energy_of(end, i, 1)) - before;
+        of->gain += sum_of(energy_of(end, i, 1, 1)) - before;
         of->there += before + off * (hypot(F[0], F[1]) + hypot(load[0], load[1]));
         of->rounding += 2 * bbm_mass_per_area(&end->element[i]) * end->element[i].A0
                       * pow(off / m->h, 2);
@@ -148,7 +150,7 @@ void bbm_find_accounts(bbm_model *m, const bbm_model *end)
     }
     for (bbm_account *a = b->account; a < b->account + m->elements; a++) {
         a->gain = copysign(fmax(0, fabs(a->gain) - a->rounding), a->gain);
-        if (!a->moves || m->par.velocity_factor < 1)
+        if (!a->moves || m->par.velocity_factor == 0)
             a->gain = a->there = 0;
     }
 }
@@ -165,8 +167,7 @@ static double energy_to_lengthen(const bbm_model *m, const bbm_contact *c, doubl
 
 /* Short springs get longer. Without this, what slides over joints sinks at each one, for the next
  * block has not yet given way. A component pays with what it has lost in the step, and all its
- * springs get the same share. Where velocities are not kept at all they get it for nothing; where
- * they keep a share there is no balance, and nothing is paid. */
+ * springs get the same share. Where velocities are not kept at all they get it for nothing. */
 static void lengthen_springs(bbm_model *m)
 {
     bbm_account *of = m->beyond->account;

@@ -218,7 +218,7 @@ bbm_pass bbm_refine(bbm_model *m)
         r[6 * i + 1] = share * b->force[1];
         r[6 * i + 2] = share * b->moment;
     }
-    if (!stiff || m->par.velocity_factor < 1
+    if (!stiff || m->par.velocity_factor == 0
         || bbm_solve(m->K, r, d, &m->par.pcg, &(bbm_pcg_info){ 0 }))
         return BBM_PASS_DONE;
     for (int k = 0; k < 6 * m->elements; k++)

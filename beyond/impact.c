@@ -172,7 +172,7 @@ static double rigidity(const bbm_model *m, int i)
  * moments, are alpha times as stiff by themselves. */
 void bbm_stiffen(bbm_model *m)
 {
-    if (m->beyond->restitution < 0 || bbm_is_static(m) || m->par.velocity_factor < 1
+    if (m->beyond->restitution < 0 || bbm_is_static(m) || m->par.velocity_factor == 0
         || m->beyond->jump_of)
         return;
     find_hits(m);
@@ -448,7 +448,7 @@ bbm_status bbm_jump(bbm_model *m, bbm_model *end, double hit[2])
     bbm_hooks hook = *m->hook;
     bbm_model jump = *end;
 
-    if (bbm_is_static(m) || m->par.velocity_factor < 1 || !find_causes(m, end))
+    if (bbm_is_static(m) || m->par.velocity_factor == 0 || !find_causes(m, end))
         return BBM_OK;
     hook.motion = NULL;
     hook.renew = NULL;
