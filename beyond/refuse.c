@@ -6,13 +6,14 @@
 
 #include "beyond.h"
 
-/* FAR_STRAIN [-]  what an element may strain in a step of dynamics; in a static step it is 1: the
- *                 element has turned over
- * LINEAR [-]      the same of one static step without contacts, which is linear for loads of any
- *                 size whose squares are numbers
- * FAR_TURN [rad]  what an element may turn in a step of dynamics: T of the middle of a step grows
- *                 without bound towards half a turn, and the detection takes the way of a corner
- *                 for that from its start to its end
+/* FAR_STRAIN [-]  what an element may strain in a step; of a static one without contacts and bolts
+ *                 it is 1: the element has turned over
+ * LINEAR [-]      the same of the only step of such a model, which is linear for loads of any size
+ *                 whose squares are numbers
+ * FAR_TURN [rad]  what an element may turn in a step: T of the middle of a step grows without bound
+ *                 towards half a turn, the detection takes the way of a corner for that from its
+ *                 start to its end, and what hangs on bolts may find another equilibrium behind it.
+ *                 In a static step without contacts and bolts there is no bound
  * CURVE [-]       how far off the straight way from start to end a corner may be, as seen from an
  *                 edge that it may touch, against the smaller block: where it crosses the edge is
  *                 taken from the straight way
@@ -80,14 +81,24 @@ static double curve_of(const bbm_model *m, const bbm_contact *c)
                  Y + u[1] - Dj[1] / 2 - cosine * (Y + y) + sine * x);
 }
 
+/* Whether blocks touch, or bolts and pins join them. */
+int bbm_blocks_meet(const bbm_model *m)
+{
+    int meet = m->scratch->contacts > 0;
+
+    for (const bbm_gap *g = m->gap; g < m->gap + m->gaps; g++)
+        meet |= g->j >= 0 && m->beyond->body[g->i] != m->beyond->body[g->j];
+    return meet;
+}
+
 /* Whether the solution turns and strains no element too far, and none turns while a corner of it,
  * or one at an edge of it, goes a way that is too far off the straight one; a comparison with NaN
  * is false. */
 bbm_status bbm_check_solution(bbm_model *m)
 {
-    const int linear = m->par.steps == 1 && m->scratch->contacts == 0;
-    const double most = !bbm_is_static(m) ? FAR_STRAIN : linear ? LINEAR : 1;
-    const double turn = bbm_is_static(m) ? INFINITY : FAR_TURN;
+    const int alone = bbm_is_static(m) && !bbm_blocks_meet(m);
+    const double most = !alone ? FAR_STRAIN : m->par.steps == 1 ? LINEAR : 1;
+    const double turn = alone ? INFINITY : FAR_TURN;
     int far = -1;
 
     for (const bbm_contact *c = m->scratch->contact; c < bbm_end_of_contacts(m) && far < 0; c++)

@@ -356,10 +356,7 @@ bbm_status bbm_try_otherwise(bbm_model *m, bbm_status status)
              ? BBM_STEP_TOO_LONG : status;
     const int lost = status == BBM_NOT_FINITE
                   || (status >= BBM_NOT_POSITIVE_DEFINITE && status <= BBM_TOO_SOFT);
-    int meets = m->scratch->contacts > 0;
-    for (const bbm_gap *g = m->gap; g < m->gap + m->gaps; g++)
-        meets |= g->j >= 0 && m->beyond->body[g->i] != m->beyond->body[g->j];
-    if (!lost || !meets)
+    if (!lost || !bbm_blocks_meet(m))
         return status;
     for (int n = 0; n < 2 * m->nodes; n++)
         if (m->beyond->support[n / 2].moved[n % 2] != 0)
