@@ -91,6 +91,12 @@ static double rounding_of(const bbm_model *m, int e)
 /* A vertex inside a straight side is no corner. */
 static int is_corner(const bbm_model *m, int c) { return m->edge[c].side == c; }
 
+/* The edge that arrives at a corner (0) or leaves it (1). */
+static int own_side(const bbm_model *m, int c, int which) { return which ? c : m->edge[c].before; }
+
+/* The corner that starts an edge (0) or ends it (1). */
+static int end_of(const bbm_model *m, int e, int end) { return end ? m->edge[e].after : e; }
+
 /* Directions and lengths of the present edges. */
 static void find_directions(bbm_model *m)
 {
@@ -202,34 +208,35 @@ void bbm_foresee_step(bbm_model *m)
     m->detections = 0;
 }
 
-typedef struct { double x, y, far; } displacement;      /* m; far: its length                 */
+typedef struct { double x, y, u, v, far; } moving;      /* m; far: the length of (u, v)         */
 
-/* How the point of the boundary at v moves by D. */
-static displacement move_point(const bbm_model *m, int v)
+/* The point of the boundary at vertex k, and how it moves by D. */
+static moving move_point(const bbm_model *m, int k)
 {
-    const bbm_vertex *P = &m->vertex[v], *Q = &m->vertex[bbm_partner_of(m, v)];
+    const bbm_vertex *P = &m->vertex[k], *Q = &m->vertex[bbm_partner_of(m, k)];
+    const bbm_point at = bbm_point_at(m, k);
     double u[2], w[2];
 
     bbm_move(bbm_motion_of(m), &m->element[P->element], &m->D[6 * P->element], P->x, P->y, u);
     bbm_move(bbm_motion_of(m), &m->element[Q->element], &m->D[6 * Q->element], Q->x, Q->y, w);
     const double x = (u[0] + w[0]) / 2, y = (u[1] + w[1]) / 2;
-    return (displacement){ x, y, hypot(x, y) };
+    return (moving){ at.x, at.y, x, y, hypot(x, y) };
 }
 
 /* How far two corners move past each other along t by D. */
 static double slip_between(const bbm_model *m, int P, int Q, bbm_direction t)
 {
-    const displacement u = move_point(m, m->edge[P].a), v = move_point(m, m->edge[Q].a);
+    const moving p = move_point(m, m->edge[P].a), q = move_point(m, m->edge[Q].a);
 
-    return fabs((u.x - v.x) * t.x + (u.y - v.y) * t.y);
+    return fabs((p.u - q.u) * t.x + (p.v - q.v) * t.y);
 }
 
 /* By how much an edge turns by D. */
 static double turn_of(const bbm_model *m, int e)
 {
     const bbm_direction t = m->edge[e].along;
-    const displacement u = move_point(m, m->edge[e].a), v = move_point(m, m->edge[e].b);
-    const double x = v.x - u.x, y = v.y - u.y;
+    const moving a = move_point(m, m->edge[e].a), b = move_point(m, m->edge[e].b);
+    const double x = b.u - a.u, y = b.v - a.v;
 
     return atan2(t.x * y - t.y * x, t.length + t.x * x + t.y * y);
 }
@@ -318,7 +325,7 @@ double bbm_way_along(const bbm_model *m, int corner, int edge)
 /* The end of an edge that is nearer to a corner: the edge that starts there. */
 static int end_near(const bbm_model *m, int corner, int e)
 {
-    return 2 * project(m, corner, e).s < m->edge[e].along.length ? e : m->edge[e].after;
+    return end_of(m, e, 2 * project(m, corner, e).s >= m->edge[e].along.length);
 }
 
 /* By how much a corner P and the end Q of an edge may overlap and pass each other all the same: the
@@ -393,6 +400,18 @@ static int are_parallel(const bbm_model *m, int e, int f, int way)
     return fabs(cross(p, q)) <= PARALLEL && way * (p.x * q.x + p.y * q.y) >= 0;
 }
 
+/* Whether a side of the corner lies along the edge and reaches inward from that end of it. */
+static int lies_over(const bbm_model *m, int corner, int e, int end)
+{
+    return are_parallel(m, e, own_side(m, corner, end), -1);
+}
+
+/* The same from one end or the other. */
+static int lies_along(const bbm_model *m, int corner, int e)
+{
+    return lies_over(m, corner, e, 0) || lies_over(m, corner, e, 1);
+}
+
 /* Whether the start of an edge lies inside one straight side of two held blocks. */
 static int is_inner(const bbm_model *m, int c)
 {
@@ -406,13 +425,12 @@ static int is_inner(const bbm_model *m, int c)
  * is one side whatever lies on it. */
 static int side_at(const bbm_model *m, int c, int which, int Q)
 {
-    const int own[2] = { m->edge[c].before, c }, joined = m->edge[c].joined[which];
-    const int at[2] = { own[!which], joined };
-    int alone = joined < 0 || m->edge[joined].first == m->edge[Q].first;
+    const int joined = m->edge[c].joined[which];
 
-    for (int k = 0; k < 4 && !alone && !is_inner(m, c); k++)
-        alone = are_parallel(m, at[k / 2], k % 2 ? m->edge[Q].before : Q, -1);
-    return alone ? own[which] : joined;
+    if (joined < 0 || m->edge[joined].first == m->edge[Q].first)
+        return own_side(m, c, which);
+    return !is_inner(m, c) && (lies_along(m, Q, own_side(m, c, !which)) || lies_along(m, Q, joined))
+         ? own_side(m, c, which) : joined;
 }
 
 /* Whether two edges are of one straight side, also where it goes on in a block that is held. */
@@ -426,9 +444,8 @@ static int is_covered(const bbm_model *m, int corner, int e)
 {
     const int Q = end_near(m, corner, e), end = Q != e, cover = side_at(m, Q, !end, corner);
     const int side = end ? m->edge[cover].after : m->edge[cover].before;
-    const double s = project(m, corner, e).s, from = end ? m->edge[e].along.length - s : s;
 
-    return cover != e && 2 * from < m->edge[side].along.length;
+    return cover != e && -2 * project(m, corner, e).beyond < m->edge[side].along.length;
 }
 
 static bbm_direction turned(bbm_direction t, double r)
@@ -609,17 +626,11 @@ typedef enum { NEXT, FLUSH, OTHER } meeting;
 
 static pair meet(const bbm_model *m, pair p, int end, meeting kind)
 {
-    const int Q = end ? m->edge[p.edge].after : p.edge;
+    const int Q = end_of(m, p.edge, end);
 
     if (kind == NEXT)
         return (pair){ p.corner, side_at(m, Q, end, p.corner), 0 };
-    return (pair){ Q, (kind == FLUSH) == end ? p.corner : m->edge[p.corner].before, 0 };
-}
-
-/* Whether a side of the corner lies along the edge and reaches inward from that end of it. */
-static int lies_over(const bbm_model *m, int corner, int e, int end)
-{
-    return are_parallel(m, e, end ? corner : m->edge[corner].before, -1);
+    return (pair){ Q, own_side(m, p.corner, (kind == FLUSH) == end), 0 };
 }
 
 /* Whether the pair p gives way to the pair that it meets, where both are one contact. There are
@@ -634,7 +645,7 @@ static int lies_over(const bbm_model *m, int corner, int e, int end)
 static int gives_way(const bbm_model *m, pair p, int end, meeting kind)
 {
     const pair q = meet(m, p, end, kind);
-    const int P = p.corner, Q = end ? m->edge[p.edge].after : p.edge;
+    const int P = p.corner, Q = end_of(m, p.edge, end);
 
     if (!(kind == NEXT ? are_in_line(m, p.edge, q.edge) : are_parallel(m, p.edge, q.edge, 0))
         || find_pair(m, q) < 0)
@@ -681,7 +692,7 @@ static void join_flush_corners(bbm_model *m)
     }
     for (int k = 0; k < 2 * m->scratch->pairs; k++) {
         const pair p = m->scratch->pair[k / 2];
-        const int P = p.corner, end = k % 2, Q = end ? m->edge[p.edge].after : p.edge;
+        const int P = p.corner, end = k % 2, Q = end_of(m, p.edge, end);
         const bbm_direction t = m->edge[p.edge].along;
         const projection f = project(m, P, p.edge);
         const double apart = hypot(f.d, f.s - end * t.length);
@@ -693,7 +704,7 @@ static void join_flush_corners(bbm_model *m)
             continue;
         if (slip_between(m, P, Q, t) > contact_depth(m, P, Q))
             m->edge[P].slides = m->edge[Q].slides = 1;
-        const int at_Q = end ? m->edge[P].before : P, at_P = end ? Q : m->edge[Q].before;
+        const int at_Q = own_side(m, P, !end), at_P = own_side(m, Q, end);
         m->edge[Q].joined[!end] = at_Q;
         m->edge[P].joined[end] = at_P;
         if (apart <= touch_between(m, P, Q) && are_one_side(m, P, Q, end)) {
@@ -771,7 +782,7 @@ static int has_left(const bbm_model *m, const bbm_contact *c)
     return (c->trial.beyond_end && lines == 0)
         || (c->trial.was_closed && !bbm_is_strong(c) && q->meets[!end] && !is_inner(m, Q)
             && cross(m->edge[q->before].along, q->along) > PARALLEL
-            && bbm_may_enter(m, c->corner, end ? Q : q->before)
+            && bbm_may_enter(m, c->corner, own_side(m, Q, end))
             && project(m, c->corner, c->edge).beyond > -rounding_between(m, c->corner, c->edge));
 }
 
@@ -804,7 +815,7 @@ static void continue_contact(const bbm_model *m, pair p, bbm_contact *c)
         pair other = meet(m, p, k / 2, k % 2 ? FLUSH : NEXT);
         if (k % 2 && are_parallel(m, p.edge, other.edge, 0))
             other = meet(m, p, k / 2, OTHER);
-        const int Q = k / 2 ? m->edge[p.edge].after : p.edge;
+        const int Q = end_of(m, p.edge, k / 2);
         const int in = side_at(m, Q, 0, p.corner), out = side_at(m, Q, 1, p.corner);
         const double bend = cross(m->edge[in].along, m->edge[out].along);
         const int convex = bend > -PARALLEL;        /* or straight */
@@ -879,27 +890,26 @@ bbm_status bbm_list_pairs(bbm_model *m, int *same)
 
 /* ----------------------------------------------------- where a corner comes in, of the solution */
 
+/* The way from q to p at the end. Differences first: springs are so stiff that the last bit of a
+ * coordinate counts. */
+static bbm_point way_from(moving q, moving p)
+{
+    return (bbm_point){ p.x - q.x + p.u - q.u, p.y - q.y + p.v - q.v };
+}
+
 /* d_n and d_s, from an anchor, Eq. (52), (53), where the solution puts the points; l alone is the
- * start's. Differences first: springs are so stiff that the last bit of a coordinate counts. */
+ * start's. */
 void bbm_end_distances(const bbm_model *m, const bbm_contact *c, double anchor, double d[2])
 {
-    const int P[3] = { m->edge[c->corner].a, m->edge[c->edge].b, m->edge[c->edge].a };
-    bbm_point at[3];
-    displacement u[3];
+    const bbm_edge *e = &m->edge[c->edge];
+    const moving P1 = move_point(m, m->edge[c->corner].a);
+    const moving P2 = move_point(m, e->b), P3 = move_point(m, e->a);
+    const moving P0 = { P3.x + anchor * (P2.x - P3.x), P3.y + anchor * (P2.y - P3.y),
+                        P3.u + anchor * (P2.u - P3.u), P3.v + anchor * (P2.v - P3.v), 0 };
+    const bbm_point t = way_from(P2, P3), n = way_from(P2, P1), s = way_from(P0, P1);
 
-    for (int k = 0; k < 3; k++) {
-        at[k] = bbm_point_at(m, P[k]);
-        u[k] = move_point(m, P[k]);
-    }
-    const double x0 = at[2].x + anchor * (at[1].x - at[2].x);
-    const double y0 = at[2].y + anchor * (at[1].y - at[2].y);
-    const double u0 = u[2].x + anchor * (u[1].x - u[2].x);
-    const double v0 = u[2].y + anchor * (u[1].y - u[2].y);
-    const double x3 = at[2].x - at[1].x + u[2].x - u[1].x, y3 = at[2].y - at[1].y + u[2].y - u[1].y;
-    const double x1 = at[0].x - at[1].x + u[0].x - u[1].x, y1 = at[0].y - at[1].y + u[0].y - u[1].y;
-    const double sx = at[0].x - x0 + u[0].x - u0, sy = at[0].y - y0 + u[0].y - v0;
-    d[0] = (x3 * y1 - y3 * x1) / m->edge[c->edge].along.length;
-    d[1] = (sx * x3 + sy * y3) / m->edge[c->edge].along.length;
+    d[0] = (t.x * n.y - t.y * n.x) / e->along.length;
+    d[1] = (s.x * t.x + s.y * t.y) / e->along.length;
 }
 
 /* The fraction of the step at which P gets deeper behind a line than at the surface: 0 if it starts
@@ -947,12 +957,6 @@ static int admits(const bbm_model *m, const bbm_contact *c)
         && can_enter(m, c->corner, c->edge, r, PARALLEL + angle);
 }
 
-/* Whether a side of the corner lies along the edge. */
-static int lies_along(const bbm_model *m, const bbm_contact *c)
-{
-    return lies_over(m, c->corner, c->edge, 0) || lies_over(m, c->corner, c->edge, 1);
-}
-
 /* Whether an entrance line r of an open contact c counts in its place: r is closed, or P is outside
  * it from where it crosses c to the end, or crosses it later, for P comes in over the line that it
  * crosses last. A P that leaves over r has been outside if it was less than the rounding of the
@@ -977,11 +981,13 @@ static int counts(const bbm_model *m, const bbm_contact *r, const bbm_contact *c
         return over_r >= (c->trial.was_closed ? 0 : -off);
     if (c->trial.was_closed && crossed_at(m, r) > 1)
         return 0;
-    if (crossed_at(m, r) > 1 && crossed_at(m, c) > 1 && lies_along(m, c) && lies_along(m, r))
+    if (crossed_at(m, r) > 1 && crossed_at(m, c) > 1 && lies_along(m, c->corner, c->edge)
+        && lies_along(m, r->corner, r->edge))
         return 1;
-    if (fabs(later) > TIE || r->trial.was_closed != c->trial.was_closed)
-        return (fabs(later) > TIE ? later > 0 : r->trial.was_closed) && admits(m, r);
-    return goes_before(m, r->edge, c->edge) && admits(m, r);
+    const int first = fabs(later) > TIE ? later > 0
+                    : r->trial.was_closed != c->trial.was_closed ? r->trial.was_closed
+                    : goes_before(m, r->edge, c->edge);
+    return first && admits(m, r);
 }
 
 /* Whether P crosses another line of a corner than that of c, so that one of them counts. */
