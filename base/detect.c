@@ -241,18 +241,12 @@ static double turn_of(const bbm_model *m, int e)
     return atan2(t.x * y - t.y * x, t.length + t.x * x + t.y * y);
 }
 
-/* How far an edge or its element turns by D. */
-static double turn_at(const bbm_model *m, int e)
-{
-    return fmax(fabs(m->D[6 * m->edge[e].element + 2]), fabs(turn_of(m, e)));
-}
-
 /* Whether the solution moves further than the detection has foreseen. */
 int bbm_moved_too_far(const bbm_model *m)
 {
     for (int e = 0; e < m->edges; e++)
         if (move_point(m, m->edge[e].a).far > reach_of(m, e)->travel
-            || turn_at(m, e) > m->scratch->reach[m->edge[e].element].turn)
+            || fabs(turn_of(m, e)) > m->scratch->reach[m->edge[e].element].turn)
             return 1;
     return 0;
 }
@@ -268,7 +262,7 @@ static double foresee(bbm_model *m)
         m->scratch->reach[i].depth_now = m->scratch->reach[i].turn = 0;
     for (int e = 0; e < m->edges; e++) {
         reach *b = reach_of(m, e), *own = &m->scratch->reach[m->edge[e].element];
-        own->turn = fmax(own->turn, 2 * turn_at(m, e) + PARALLEL / 2);
+        own->turn = fmax(own->turn, 2 * fabs(turn_of(m, e)) + PARALLEL / 2);
         const double way = 1.1 * move_point(m, m->edge[e].a).far;
         b->travel = fmax(b->travel, way + b->depth + rounding_of(m, e) / 2);
         most = fmax(most, b->travel);
@@ -556,8 +550,7 @@ static int is_near(const bbm_model *m, int corner, int e)
         || fmax(f.d, f.beyond) > approach + start_depth(m, corner, e))
         return 0;
     const bbm_contact *c = find_closed(m, corner, e);
-    const double rounding = c ? bbm_rounding(m, corner) : rounding_between(m, corner, e);
-    return -f.d <= approach + fmax(deep, rounding)
+    return -f.d <= approach + fmax(deep, bbm_rounding(m, corner))
         && (c || f.beyond > touch_between(m, corner, e) || f.d >= -deep);
 }
 
