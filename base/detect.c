@@ -782,9 +782,9 @@ static int has_left(const bbm_model *m, const bbm_contact *c)
 /* Makes a pair a contact that goes on from the one that it continues. A corner that has come past
  * a rounded one is inside. A projection beyond the end of the edge is off it. But where a block
  * lies flush it may be as far beyond as that may be apart, and by the rounding; and in a notch of
- * its block, or of it and one that lies flush, or as deep in a hollow, it lies inside. An
- * entrance is another line of the list on which P and an end Q of its edge can enter each other,
- * if both are convex corners; where the blocks are flush each line is one of P or one of Q. In a
+ * its block, or of it and one that lies flush, or as deep in a hollow, it lies inside. An entrance
+ * is another line of the list on which P and a convex end Q of its edge can enter each other: P
+ * over the next edge, or Q over that edge of P that would lie on this one, unless it does. In a
  * notch Q both edges hold P at once. */
 static void continue_contact(const bbm_model *m, pair p, bbm_contact *c)
 {
@@ -805,9 +805,7 @@ static void continue_contact(const bbm_model *m, pair p, bbm_contact *c)
     c->trial.was_closed = c->state != BBM_OPEN;
     c->trial.beyond_end = f.beyond > (m->edge[near].joined[near != p.edge] >= 0 ? seam : touch);
     for (int k = 0; k < 4; k++) {
-        pair other = meet(m, p, k / 2, k % 2 ? FLUSH : NEXT);
-        if (k % 2 && are_parallel(m, p.edge, other.edge, 0))
-            other = meet(m, p, k / 2, OTHER);
+        const pair other = meet(m, p, k / 2, k % 2 ? FLUSH : NEXT);
         const int Q = end_of(m, p.edge, k / 2);
         const int in = side_at(m, Q, 0, p.corner), out = side_at(m, Q, 1, p.corner);
         const double bend = cross(m->edge[in].along, m->edge[out].along);
