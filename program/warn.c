@@ -15,8 +15,6 @@ enum { NAMED = 10 };            /* pieces of a block that a warning names       
 #define TAPER 0.5
 /* Of its size: an element that moves by less in a step is at rest but for rounding. */
 #define STILL 1e-10
-/* rad: a beam may be rolled up once, but no more. */
-#define ROLLED 6.3
 /* Of their size: from there on blocks that have moved without end would be said to fall. */
 #define PARTED 0.02
 /* Grid points of the one side for one of the other. */
@@ -493,7 +491,7 @@ static double find_imbalance(bbm_model *m)
 
 void warn_after(const model *p, const char *path)
 {
-    double most = 0, strain = 0, turned = 0;
+    double most = 0, strain = 0;
     char text[400];
     int stable = 1;
 
@@ -502,7 +500,6 @@ void warn_after(const model *p, const char *path)
             warn(path, "monitor %.60s: nothing touched in its joint", p->monitor[k].name);
     for (int e = 0; e < p->m->elements && !p->dynamic; e++) {
         most = fmax(most, fabs(p->m->element[e].D[2]));
-        turned = fmax(turned, fabs(p->m->element[e].sum[2]));
         for (int k = 3; k < 6; k++)
             strain = fmax(strain, fabs(p->m->element[e].D[k]));
     }
@@ -512,9 +509,6 @@ void warn_after(const model *p, const char *path)
     if (most > 0.1)                             /* the way across an arm makes it 0.5 % longer */
         warn(path, "elements turn by more than 0.1 rad in the last step, which statics takes as "
                    "small: lengths are wrong; more steps help");
-    if (turned > ROLLED)
-        warn(path, "elements have turned by %.3g rad on the way to this equilibrium: another one may "
-                   "be meant; loads in stages, or dynamics with velocity_factor 0, may find it", turned);
     if (p->m->beyond->parted > PARTED)
         warn(path, "it stands, but not as drawn: blocks slid or turned by %.2g of their size first",
              p->m->beyond->parted);
