@@ -750,11 +750,11 @@ static const bbm_contact *find_ancestor(const bbm_model *m, pair p)
 }
 
 /* Whether P has left a closed contact past a corner Q: an entrance line on which they can enter
- * each other is open, and no block that lies flush covers it, also none on which that of P lies; or
- * there is no such line, and the projection is off the edge. A P that hangs on a ledge has left,
- * too: on a covered face of a convex Q, not farther from Q than the rounding, where it can enter
- * over the other face. There P is at the surface, and the covered face is not in the way. A joint
- * with strength holds it all the same. */
+ * each other is open, and covered lines are not in the list; or there is no such line, and the
+ * projection is off the edge. A P that hangs on a ledge has left, too: on a covered face of a
+ * convex Q, not farther from Q than the rounding, where it can enter over the other face. There P
+ * is at the surface, and the covered face is not in the way. A joint with strength holds it all the
+ * same. */
 static int has_left(const bbm_model *m, const bbm_contact *c)
 {
     const int Q = end_near(m, c->corner, c->edge), end = Q != c->edge;
@@ -765,9 +765,6 @@ static int has_left(const bbm_model *m, const bbm_contact *c)
         if (c->trial.entrance[k] < 0)
             continue;
         const pair r = m->scratch->pair[c->trial.entrance[k]];
-        const int at = end_near(m, r.corner, r.edge);
-        if (m->edge[at].joined[at == r.edge] >= 0)
-            continue;
         if (project(m, r.corner, r.edge).d > 0 && bbm_may_enter(m, r.corner, r.edge))
             return 1;
         lines++;
