@@ -439,7 +439,7 @@ double     bbm_size_at(const bbm_model *m, const bbm_contact *c);       /* m    
 int        bbm_is_at_corner(const bbm_model *m, const bbm_contact *c);
 int        bbm_is_blocked(const bbm_model *m, const bbm_contact *c);
 void       bbm_end_distances(const bbm_model *m, const bbm_contact *c, double anchor, double d[2]);
-void       bbm_note_depths(bbm_model *m);                       /* of the solution in hand      */
+void       bbm_note_depths(bbm_model *m, const bbm_contact *list, int n);
 void       bbm_keep_contacts(bbm_model *m);                     /* the step's become the model's */
 
 /* contact.c: 3.7, 3.8 */

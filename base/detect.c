@@ -205,6 +205,7 @@ void bbm_foresee_step(bbm_model *m)
             m->D[6 * i + a] = m->element[i].V[a] * h;
         m->scratch->reach[i].travel = 0;
     }
+    bbm_note_depths(m, m->contact, m->contacts);        /* not those of a try that failed       */
     m->detections = 0;
 }
 
@@ -1004,18 +1005,16 @@ int bbm_is_blocked(const bbm_model *m, const bbm_contact *c)
 
 /* ------------------------------------------------------------------------------ end of the step */
 
-/* How deep the blocks are in the solution in hand, and the sides that lie in the line of a contact:
+/* How deep the blocks are by a list of contacts, and the sides that lie in the line of one:
  * the depth of a contact that is closed, or open inside after a hit, counts for both. Its sides are
  * as deep as its spring is short: what came in over a ledge goes no deeper over the next one. */
-void bbm_note_depths(bbm_model *m)
+void bbm_note_depths(bbm_model *m, const bbm_contact *list, int n)
 {
-    const bbm_contact_scratch *w = m->scratch;
-
     for (int i = 0; i < m->elements; i++)
-        w->reach[i].depth_now = 0;
+        m->scratch->reach[i].depth_now = 0;
     for (int e = 0; e < m->edges; e++)
         m->edge[e].deep = 0;
-    for (const bbm_contact *c = w->contact; c < w->contact + w->contacts; c++) {
+    for (const bbm_contact *c = list; c < list + n; c++) {
         const int of[3] = { c->edge, c->corner, m->edge[c->corner].before };
         reach *i = reach_of(m, c->corner), *j = reach_of(m, c->edge);
         const double inside = c->hit && (c->trial.was_closed || c->inside) ? fmax(0, -c->d_n) : 0;
@@ -1035,7 +1034,7 @@ void bbm_keep_contacts(bbm_model *m)
     bbm_contact *last = m->contact;
 
     find_directions(m);
-    bbm_note_depths(m);
+    bbm_note_depths(m, w->contact, w->contacts);
     for (int i = 0; i < m->elements; i++) {
         w->reach[i].depth = w->reach[i].depth_now;
         w->reach[i].came = w->reach[i].travel;

@@ -270,7 +270,7 @@ bbm_pass bbm_open_close(bbm_model *m)
         c->trial.unsettled = renew_friction(c);
         renewed |= c->trial.unsettled;
     }
-    bbm_note_depths(m);
+    bbm_note_depths(m, w->contact, w->contacts);
     if (renewed)
         return ++w->friction_passes <= FRICTION_PASSES ? BBM_PASS_AGAIN : BBM_PASS_GIVE_UP;
     w->friction_passes = 0;
