@@ -7,6 +7,9 @@
 /* What a bolt's direction in the middle of a step may be off [rad]: so much of the moment of its
  * force goes into the angular momentum. */
 #define DIRECTION 1e-10
+/* What a static step may move one end of a bolt against the other, of its length: with more its force
+ * is not yet that of an equilibrium. */
+#define SMALL 0.1
 
 typedef struct {
     bbm_beyond library;
@@ -140,8 +143,8 @@ static void list_gaps(bbm_model *m)
 
 /* ------------------------------------------------------------------------------------ the hooks */
 
-/* Bolts that carry more than their strength break. Gravity less the acceleration of the base in the
- * middle of the step, which is the mean between two rows. */
+/* Gravity less the acceleration of the base in the middle of the step, which is the mean between two
+ * rows. */
 static bbm_status begin(bbm_model *m)
 {
     const bbm_status status = hooked_of(m)->hook.begin(m);
@@ -149,11 +152,6 @@ static bbm_status begin(bbm_model *m)
     const model_shaking *q = p->shaking, *end = p->shakings ? q + p->shakings - 1 : q;
     const double t = m->info.t + m->h / 2;
 
-    for (int k = 0; k < p->bolts; k++) {
-        scene_bolt *b = &p->bolt[k];
-        if (b->pull > b->strength)
-            b->k = b->pull = 0, b->until = m->info.t;
-    }
     while (q < end && q[1].t < t)
         q++;
     for (int a = 0; a < 2 && q < end && t >= q->t; a++)
@@ -189,10 +187,14 @@ static bbm_status move(bbm_model *m)
 {
     const model *p = hooked_of(m)->p;
     scene_bolt *b = p->bolt, *end = b + p->bolts;
+    bbm_direction n;
     double d[2];
 
-    for (; b < end; b++)
+    for (; b < end; b++) {
+        model_bolt_force(m, b, &n);
+        b->way[0] = n.length * n.x, b->way[1] = n.length * n.y;
         b->force[0] = b->force[1] = 0;
+    }
     for (int q = 0; q < p->parts; q++) {
         const bbm_gap *g = &m->gap[m->gaps - p->parts + q];
         bbm_gap_length(m, g, d);
@@ -201,8 +203,9 @@ static bbm_status move(bbm_model *m)
     }
     const bbm_status status = hooked_of(m)->hook.move(m);
     for (b = p->bolt; b < end && !status; b++) {
-        bbm_direction n;
         model_bolt_force(m, b, &n);
+        b->swings = bbm_is_static(m) && hypot(n.length * n.x - b->way[0], n.length * n.y - b->way[1])
+                                        > SMALL * hypot(b->way[0], b->way[1]);
         const int pushes = b->rest > 0 && n.x * b->force[0] + n.y * b->force[1] < 0;
         b->pull = hypot(b->force[0], b->force[1]) * (pushes ? -1 : 1);
     }

@@ -2,6 +2,18 @@
 
 #include "run.h"
 
+/* Bolts that carried more than their strength in the last step break: in statics if it has found an
+ * equilibrium, or without a tolerance led near one. */
+static void break_bolts(const model *p)
+{
+    const bbm_parameters *par = &p->m->par;
+    const int balances = p->dynamic || par->tolerance <= 0 || p->m->info.change <= par->tolerance;
+
+    for (scene_bolt *b = p->bolt; b < p->bolt + p->bolts && balances; b++)
+        if (b->pull > b->strength && !b->swings)
+            b->k = b->pull = 0, b->until = p->m->info.t;
+}
+
 /* A quasi-static step without shaking. In the first half of them no joint breaks: inertia still
  * bears the weight there, and a load may act on a joint alone. */
 static bbm_status settle(run *r)
@@ -11,6 +23,7 @@ static bbm_status settle(run *r)
     double *now = m->beyond->shake;
     const double shake[2] = { now[0], now[1] }, scale = r->p->shake;
 
+    break_bolts(r->p);
     m->par.velocity_factor = now[0] = now[1] = r->p->shake = 0;
     m->beyond->joints_hold = 2 * r->settling > r->p->settle;
     const bbm_status status = bbm_step(m);
@@ -57,6 +70,7 @@ bbm_status run_step(run *r)
     r->stage_is_over = 0;
     if (m->info.step == par->steps)
         return BBM_STEPS_EXHAUSTED;
+    break_bolts(r->p);
     move_supports(r->p);
     const bbm_status status = bbm_step(m);
     if (!status && bbm_start_cracks(m))                         /* what has come off is a body  */

@@ -52,6 +52,8 @@ typedef struct {                /* a spring along the line between two points, b
     scene_end end[2];
     double k, rest, strength, until;    /* N/m, m, N, 0: removed; s: when it broke, or INFINITY   */
     double pull, force[2];              /* N        what it carries; of the solution              */
+    double way[2];                      /* m        from end to end, at the start of a step       */
+    int swings;                         /*          by a good part of that in a static step       */
     int of;                             /*          of a part: its bolt, and k its share          */
 } scene_bolt;
 
