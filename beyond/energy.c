@@ -35,8 +35,8 @@ double bbm_inertia_form(const bbm_element *e, const double V[6])
 }
 
 /* The energies of element i of the present geometry, at the start (0) or the end of a step (1).
- * Kinetic: of the velocity that is `factor` times another one, with that one. Elastic: 1/2 t A0 s.E^-1 s with Hooke's law (7) and
- * s the stress, where steps are exact on the starting area:
+ * Kinetic: of the velocity that had no `factor` yet. Elastic: 1/2 t A0 s.E^-1 s with Hooke's law
+ * (7) and s the stress, where steps are exact on the starting area:
  * s.E^-1 s = (sx^2 + sy^2 - 2 nu sx sy + 2 (1 + nu) sxy^2)/E. */
 static bbm_energy energy_of(const bbm_model *m, int i, int when, double factor)
 {

@@ -7,8 +7,8 @@
 /* What a bolt's direction in the middle of a step may be off [rad]: so much of the moment of its
  * force goes into the angular momentum. */
 #define DIRECTION 1e-10
-/* What a static step may move one end of a bolt against the other, of its length: with more its force
- * is not yet that of an equilibrium. */
+/* What a static step may move one end of a bolt against the other, of its length: with more its
+ * force is not yet that of an equilibrium. */
 #define SMALL 0.1
 
 typedef struct {
@@ -143,8 +143,8 @@ static void list_gaps(bbm_model *m)
 
 /* ------------------------------------------------------------------------------------ the hooks */
 
-/* Gravity less the acceleration of the base in the middle of the step, which is the mean between two
- * rows. */
+/* Gravity less the acceleration of the base in the middle of the step, which is the mean between
+ * two rows. */
 static bbm_status begin(bbm_model *m)
 {
     const bbm_status status = hooked_of(m)->hook.begin(m);
@@ -204,8 +204,8 @@ static bbm_status move(bbm_model *m)
     const bbm_status status = hooked_of(m)->hook.move(m);
     for (b = p->bolt; b < end && !status; b++) {
         model_bolt_force(m, b, &n);
-        b->swings = bbm_is_static(m) && hypot(n.length * n.x - b->way[0], n.length * n.y - b->way[1])
-                                        > SMALL * hypot(b->way[0], b->way[1]);
+        const double x = n.length * n.x - b->way[0], y = n.length * n.y - b->way[1];
+        b->swings = bbm_is_static(m) && hypot(x, y) > SMALL * hypot(b->way[0], b->way[1]);
         const int pushes = b->rest > 0 && n.x * b->force[0] + n.y * b->force[1] < 0;
         b->pull = hypot(b->force[0], b->force[1]) * (pushes ? -1 : 1);
     }
