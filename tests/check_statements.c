@@ -325,13 +325,13 @@ START_TEST(a_block_hangs_in_statics_on_bolts_that_let_it_swing)
 END_TEST
 
 /* Weight swings a block on its bolts, and on the way they are stretched by far more than their strength allows. Where it hangs
- * at last they bear 1 % of that: both hold. */
+ * at last they bear 1 % of that: both hold, whether steps end with a tolerance or by their number. */
 START_TEST(a_bolt_does_not_break_on_the_way_to_an_equilibrium)
 {
-    ck_assert_int_eq(run_text("sways", "material r E 1e10 nu 0.2 density 2000\nblock roof r -625 156 625 156 625 187 -625 187\n"
+    ck_assert_int_eq(run_printed("sways", "material r E 1e10 nu 0.2 density 2000\nblock roof r -625 156 625 156 625 187 -625 187\n"
         "fixblock roof\nblock b r -43.4 137 -11.4 137 -11.4 153.5 -43.4 153.5\nbolt at -43.4 153.5 of b at -47.9 156 of roof "
         "stiffness 4.3e8 strength 5.3e8\nbolt at -11.4 153.5 of b at -37.7 156 of roof stiffness 2.5e9\ngravity 0.25 -10\n"
-        "contact friction 45\nstatic steps 60 tolerance 1e-8\n"), 0);
+        "contact friction 45\nstatic steps 60%s\n", _i ? " tolerance 1e-8" : ""), 0);
     ck_near(cell("sways", "bolts.csv", "1,", "force"), 6e6, 6e6, 0.1);
     check_text("out/model/sways/bolts.csv", "HOLDS\n2,");
 }
@@ -1832,7 +1832,7 @@ static void add_loads_and_joints(TCase *t)
     tcase_add_loop_test(t, a_block_hangs_on_its_bolt, 0, 4);
     tcase_add_loop_test(t, statics_names_what_falls_when_its_bolt_breaks, 0, 2);
     tcase_add_test(t, a_block_hangs_in_statics_on_bolts_that_let_it_swing);
-    tcase_add_test(t, a_bolt_does_not_break_on_the_way_to_an_equilibrium);
+    tcase_add_loop_test(t, a_bolt_does_not_break_on_the_way_to_an_equilibrium, 0, 2);
     tcase_add_loop_test(t, what_swings_on_its_bolts_hangs_as_short_steps_have_it, 0, 3);
     tcase_add_test(t, a_held_quadrilateral_that_loses_its_last_bond_makes_no_energy);
     tcase_add_test(t, strength_of_bonds_changes_nothing_where_there_is_none);
