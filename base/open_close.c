@@ -205,26 +205,36 @@ static double misfit(const bbm_model *m, const bbm_contact *c)
     return fabs(fabs(c->T) - bbm_shear_strength(&c->strength, c->N));
 }
 
-/* Changes all states that do not fit the solution, or only the one that fits worst. A contact whose
- * P crosses several lines of a corner waits until all others fit, since they change the way of P.
- * The worst is the same in any order of the blocks, but for a tie. Returns the number of changes.
- */
+/* Which contacts wait for which, if they do not fit the solution. A joint breaks last, when all that
+ * let go more easily have done so. A contact whose P crosses several lines of a corner waits for
+ * those that change its way, unless one alone changes. */
+static int turn_of(const bbm_model *m, const bbm_contact *c, int one)
+{
+    return c->state != BBM_OPEN && bbm_is_strong(c) ? 2 : !one && bbm_is_at_corner(m, c);
+}
+
+/* Changes the states that do not fit the solution, of those whose turn it is, or only the one of
+ * them that fits worst. It is the same in any order of the blocks, but for a tie. Returns the
+ * number of changes. */
 static int change_states(bbm_model *m)
 {
     bbm_contact_scratch *w = m->scratch;
     const int one = w->passes < w->one_until;
     bbm_contact *worst = NULL;
-    int changes = 0, sure = 0;
+    int changes = 0, first = 0;
 
     for (bbm_contact *c = w->contact; c < w->contact + w->contacts; c++) {
         c->trial.next_state = find_next_state(m, c);
         c->trial.unsettled = c->trial.next_state != c->state;
-        if (c->trial.unsettled && (!worst || misfit(m, c) > misfit(m, worst)))
+        const int turn = turn_of(m, c, one);
+        if (!c->trial.unsettled || (worst && turn > first))
+            continue;
+        if (!worst || turn < first || misfit(m, c) > misfit(m, worst))
             worst = c;
-        sure |= c->trial.unsettled && !bbm_is_at_corner(m, c);
+        first = turn;
     }
     for (bbm_contact *c = w->contact; c < w->contact + w->contacts; c++) {
-        if (!c->trial.unsettled || (one ? c != worst : sure && bbm_is_at_corner(m, c)))
+        if (!c->trial.unsettled || (one ? c != worst : turn_of(m, c, one) > first))
             continue;
         if (c->state == BBM_OPEN)
             close_contact(m, c);

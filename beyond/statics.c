@@ -19,8 +19,10 @@
  *              left: about 1e-5 rad of free turning
  * STRIDE [-]   how far blocks may part, against the smaller one's size, in a step from rest and
  *              in the static step from there: contacts and directions are those of its start
+ * PACE [-]     or this share of how far they have parted so far, if that is more, up to FAR/2
  * LEAP [-]     the same of a static step from where the model is: elastic bodies may flatten
  * FAR [-]      how far they have parted in all when that is no elastic way
+ * SWING [-]    the same where bolts join bodies: what swings on them goes far to its equilibrium
  * SLOWS [-]    nor if forces lack less of balance than this share of what they did at half the way:
  *              elastic bodies come to rest so, and what falls does not
  * LONG [-]     the first step from rest that is tried, against a swing on what is softest: as in
@@ -29,8 +31,10 @@
  * DRIFT [-]    by which, in each step, what was tried is forgotten */
 #define LOOSE 1e-10
 #define STRIDE 1e-3
+#define PACE 0.05
 #define LEAP 0.2
 #define FAR 0.02
+#define SWING 4.0
 #define SLOWS 0.9
 #define LONG 100
 #define SHORT 1e-3
@@ -235,7 +239,8 @@ static bbm_status creep(bbm_model *m, const bbm_model *from)
 {
     double failed = INFINITY, tried = 0, parted = 0, lacks = 1;
     double least = INFINITY, softest = m->par.p_n;
-    double far = FAR, before = INFINITY;            /* what forces lacked at half of that way */
+    double far = bbm_bolts_join(m) ? SWING : FAR;
+    double before = INFINITY;                       /* what forces lacked at half of that way */
     bbm_contact worst = { .edge = -1 };
     bbm_status status = BBM_OPEN_CLOSE;
     bbm_beyond *b = m->beyond;
@@ -256,7 +261,9 @@ static bbm_status creep(bbm_model *m, const bbm_model *from)
         b->joints_hold = 0;
         const int settles = !status;
         if (settles) {
-            b->parted = parted = find_most_parted(from, m, m->contact, m->contacts, &worst);
+            parted = find_most_parted(from, m, m->contact, m->contacts, &worst);
+            b->parted = fmax(b->parted, parted);
+            b->reach = fmax(STRIDE, fmin(FAR / 2, PACE * parted));
             lacks = b->lack;
             before = parted <= far / 2 ? lacks : before;
             if (parted > far && lacks > SLOWS * before)

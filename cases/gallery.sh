@@ -20,7 +20,7 @@ for limit in $LIMITS; do
     echo "it does not do what is expected, as it should be"
     limits=$((limits + 1))
 done
-./bbm -q cases/models/arch.model -d steps=400 --find t 0.95 1.2
+./bbm -q cases/models/arch.model -d steps=200 --find t 0.95 1.2
 echo "the gallery is as it should be: $models models do what theory says, $limits do not beyond their limits;" \
     "theory has the arch's at t = 1.061"
 echo "Look at out/models/arch-beyond/movie.svg in a browser."

@@ -455,12 +455,11 @@ START_TEST(a_pendulum_on_a_bolt_keeps_its_period)
 END_TEST
 
 /* Many bricks hit together. Stiff springs find no states of their contacts at once, but those that soft ones have found
- * fit. No energy is made, and hits and friction take some. Far away a stone lands in each of thirty steps, and leaves with E
+ * fit. No energy is made, and hits and friction take some. Far away a stone lands in each of ten steps, and leaves with E
  * of its velocity whatever the wall does: within half a step of gravity, and the thousandth of the jump. */
 START_TEST(a_wall_that_a_stone_hits_goes_on_with_a_restitution)
 {
     static const struct { const char *stone; double u, v, friction, restitution; } hit[] = {
-        { "1.0360 1.9 5.6853 1.9 5 2.4 3 2.4", 0.736, -4, 33.040, 0.6 },
         { "1.5078 1.9 5.9268 1.9 5 2.4 3 2.4", 1.374, -4, 38.619, 0.3 },
         { "-2 0.9245 -1 0.7490 -1 1.4 -2 1.4", 8, 0, 25.197, 0.6 },
     };
@@ -471,24 +470,24 @@ START_TEST(a_wall_that_a_stone_hits_goes_on_with_a_restitution)
         const double x = b % 5 + b / 5 % 2 * 0.5, y = b / 5 * 0.4;
         fprintf(f, "block w%d r %g %g %g %g %g %g %g %g\n", b, x, y, x + 1, y, x + 1, y + 0.4, x, y + 0.4);
     }
-    for (int k = 0; k < 30; k++) {
+    for (int k = 0; k < 10; k++) {
         const double time = 0.002 * (k + 60 - 0.5), x = 100 + 5 * k, y = 0.5 * time + 9.81 / 2 * time * time;
         fprintf(f, "block f%d r %g -1 %g -1 %g 0 %g 0\nfixblock f%d\nvelocity s%d 0 -0.5\n", k, x, x + 2, x + 2, x, k, k);
         fprintf(f, "block s%d r %g %.9g %g %.9g %g %.9g %g %.9g\n", k, x, y, x + 1, y, x + 1, y + 1, x, y + 1);
     }
     fprintf(f, "block st r %s\nvelocity st %g %g\ngravity 0 -9.81\n"
-            "contact kn 1e8 friction %g restitution %g\ndynamic dt 0.002 steps 100\n",
+            "contact kn 1e8 friction %g restitution %g\ndynamic dt 0.002 steps 85\n",
             hit[_i].stone, hit[_i].u, hit[_i].v, hit[_i].friction, hit[_i].restitution);
     run_moving(f);
-    for (int k = 0; k < 30; k++) {
+    for (int k = 0; k < 10; k++) {
         const double time = 0.002 * (k + 60 - 0.5), E = hit[_i].restitution;
         char row[20];
         snprintf(row, sizeof row, "%d,s%d,", 23 + 2 * k, k);
-        ck_near(cell("moving", "elements.csv", row, "vy"), E * (0.5 + 9.81 * time) - 9.81 * (0.2 - time), 1, 0.001 * 9.81 + 0.002);
+        ck_near(cell("moving", "elements.csv", row, "vy"), E * (0.5 + 9.81 * time) - 9.81 * (0.17 - time), 1, 0.001 * 9.81 + 0.002);
     }
     const double first = cell("moving", "summary.csv", "1,", "kinetic");
-    ck_assert_double_le(cell("moving", "summary.csv", "100,", "gained"), 1e-6 * first);
-    ck_assert_double_lt(cell("moving", "summary.csv", "100,", "kinetic"), first);
+    ck_assert_double_le(cell("moving", "summary.csv", "85,", "gained"), 1e-6 * first);
+    ck_assert_double_lt(cell("moving", "summary.csv", "85,", "kinetic"), first);
 }
 END_TEST
 
@@ -509,7 +508,7 @@ Suite *moving_suite(void)
     tcase_add_loop_test(t, a_block_that_is_thrown_over_stays_down_whatever_the_step, 0, 8);
     tcase_add_loop_test(t, a_bolt_that_turns_keeps_angular_momentum_and_energy, 0, 2);
     tcase_add_test(t, a_pendulum_on_a_bolt_keeps_its_period);
-    tcase_add_loop_test(t, a_wall_that_a_stone_hits_goes_on_with_a_restitution, 0, 3);
+    tcase_add_loop_test(t, a_wall_that_a_stone_hits_goes_on_with_a_restitution, 0, 2);
     tcase_add_loop_test(t, a_pulse_that_is_shorter_than_a_step_is_told, 0, 2);
     tcase_add_test(t, a_monitor_is_at_the_nearest_node_whatever_lies_far_away);
     return s;
