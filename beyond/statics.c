@@ -22,7 +22,7 @@
  * PACE [-]     or this share of how far they have parted so far, if that is more, up to FAR/2
  * LEAP [-]     the same of a static step from where the model is: elastic bodies may flatten
  * FAR [-]      how far they have parted in all when that is no elastic way
- * SWING [-]    the same where bolts join bodies: what swings on them goes far to its equilibrium
+ * SWING [-]    the same where a program has gaps of its own, as bolts: what swings on them goes far
  * SLOWS [-]    nor if forces lack less of balance than this share of what they did at half the way:
  *              elastic bodies come to rest so, and what falls does not
  * LONG [-]     the first step from rest that is tried, against a swing on what is softest: as in
@@ -239,7 +239,7 @@ static bbm_status creep(bbm_model *m, const bbm_model *from)
 {
     double failed = INFINITY, tried = 0, parted = 0, lacks = 1;
     double least = INFINITY, softest = m->par.p_n;
-    double far = bbm_bolts_join(m) ? SWING : FAR;
+    double far = bbm_has_bolts(m) ? SWING : FAR;
     double before = INFINITY;                       /* what forces lacked at half of that way */
     bbm_contact worst = { .edge = -1 };
     bbm_status status = BBM_OPEN_CLOSE;
