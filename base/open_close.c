@@ -205,9 +205,9 @@ static double misfit(const bbm_model *m, const bbm_contact *c)
     return fabs(fabs(c->T) - bbm_shear_strength(&c->strength, c->N));
 }
 
-/* Which contacts wait for which, if they do not fit the solution. A joint breaks last, when all that
- * let go more easily have done so. A contact whose P crosses several lines of a corner waits for
- * those that change its way, unless one alone changes. */
+/* Which contacts wait for which, if they do not fit the solution. A joint breaks last, when all
+ * that let go more easily have done so. A contact whose P crosses several lines of a corner waits
+ * for those that change its way, unless one alone changes. */
 static int turn_of(const bbm_model *m, const bbm_contact *c, int one)
 {
     return c->state != BBM_OPEN && bbm_is_strong(c) ? 2 : !one && bbm_is_at_corner(m, c);
