@@ -514,9 +514,8 @@ int bbm_carries(const bbm_model *m, int c, int e)
     const int alike = fabs(mine->span - other->span) <= STRAIGHT * other->span;
     if (is_held(m, c) != is_held(m, e))
         return is_held(m, e);
-    if ((alike || isinf(m->par.dt)) && fabs(ratio - 1) > STRAIGHT)
-        return ratio < 1;
-    return goes_before(m, e, c);
+    return (alike || isinf(m->par.dt)) && fabs(ratio - 1) > STRAIGHT ? ratio < 1
+         : goes_before(m, e, c);
 }
 
 /* The contact of the last step, closed or open inside, between `corner` and the edge, or else
@@ -622,9 +621,8 @@ static pair meet(const bbm_model *m, pair p, int end, meeting kind)
 {
     const int Q = end_of(m, p.edge, end);
 
-    if (kind == NEXT)
-        return (pair){ p.corner, side_at(m, Q, end, p.corner), 0 };
-    return (pair){ Q, own_side(m, p.corner, (kind == FLUSH) == end), 0 };
+    return kind == NEXT ? (pair){ p.corner, side_at(m, Q, end, p.corner), 0 }
+                        : (pair){ Q, own_side(m, p.corner, (kind == FLUSH) == end), 0 };
 }
 
 /* Whether the pair p gives way to the pair that it meets, where both are one contact. There are

@@ -3,9 +3,9 @@
  *
  * The iteration. N of a sliding contact depends on its friction, and the friction on N. So solve
  * with the friction of the last N until both agree; a hook may need fewer solutions. Only then look
- * at the states: all that do not fit their forces change, and a new solution follows. If a set of
- * states comes back, the iteration would cycle. Then, for as many passes as there have been, only
- * the contact that fits worst changes.
+ * at the states: all that do not fit their forces change, joints last, and a new solution follows.
+ * If a set of states comes back, the iteration would cycle. Then, for as many passes as there have
+ * been, only the contact that fits worst changes.
  *
  * Nothing moves before all contacts fit. If they never do, the step is done again as if it had not
  * been tried: in halves, or in statics in another way.
@@ -17,10 +17,15 @@
  * DIGITS [-]  rounding of a position after some sums, against the position. What a spring makes of
  *             it counts as no force
  * FIT    [-]  of a force, the most that rounding may add to its tolerance: so friction is right to
- *             0.01 degrees */
+ *             0.01 degrees
+ * LATER  [-]  the turn of what waits for others that are no joint, beyond that of a joint
+ * ALIKE  [-]  joints that bear this share of what the most loaded one does break with it: one by
+ *             one a long joint would take more passes than there are */
 #define AGREE 1e-9
 #define DIGITS 1e-15
 #define FIT 2e-4
+#define LATER 1e200
+#define ALIKE 0.7
 
 /* The most passes in a row that change friction forces alone. */
 enum { FRICTION_PASSES = 100 };
@@ -200,41 +205,43 @@ static bbm_contact_state find_next_state(const bbm_model *m, const bbm_contact *
 /* The force by which a state fails to fit the solution; of an open one the N if it were closed. */
 static double misfit(const bbm_model *m, const bbm_contact *c)
 {
-    if (c->state == BBM_OPEN || c->trial.next_state == BBM_OPEN)
-        return fabs(bbm_normal_force(m, c->d_n - c->rest));
-    return fabs(fabs(c->T) - bbm_shear_strength(&c->strength, c->N));
+    return c->state == BBM_OPEN || c->trial.next_state == BBM_OPEN
+         ? fabs(bbm_normal_force(m, c->d_n - c->rest))
+         : fabs(fabs(c->T) - bbm_shear_strength(&c->strength, c->N));
 }
 
-/* Which contacts wait for which, if they do not fit the solution. A joint breaks last, when all
- * that let go more easily have done so. A contact whose P crosses several lines of a corner waits
- * for those that change its way, unless one alone changes. */
-static int turn_of(const bbm_model *m, const bbm_contact *c, int one)
+/* When the turn of a contact comes that does not fit the solution: those with the largest number
+ * change, and the others wait. Joints break last, when all that lets go more easily has done so.
+ * Of joints those go first that bear the most of their strength: -N/tension, or of the strength in
+ * shear (|T| - N tan(phi))/(c A). A contact whose P crosses several lines of a corner waits for
+ * those that change its way. */
+static double turn_of(const bbm_model *m, const bbm_contact *c, int one)
 {
-    return c->state != BBM_OPEN && bbm_is_strong(c) ? 2 : !one && bbm_is_at_corner(m, c);
+    const bbm_strength *s = &c->strength;
+
+    if (c->state != BBM_OPEN && c->trial.next_state != BBM_LOCK && bbm_is_strong(c))
+        return fmax(-c->N / s->tension, (fabs(c->T) - c->N * s->tan_phi) / s->shear);
+    return one ? LATER * misfit(m, c) : bbm_is_at_corner(m, c) ? LATER : INFINITY;
 }
 
 /* Changes the states that do not fit the solution, of those whose turn it is, or only the one of
- * them that fits worst. It is the same in any order of the blocks, but for a tie. Returns the
+ * them that fits worst. That one is the same in any order of the blocks, but for a tie. Returns the
  * number of changes. */
 static int change_states(bbm_model *m)
 {
     bbm_contact_scratch *w = m->scratch;
     const int one = w->passes < w->one_until;
-    bbm_contact *worst = NULL;
-    int changes = 0, first = 0;
+    double first = 0;
+    int changes = 0;
 
     for (bbm_contact *c = w->contact; c < w->contact + w->contacts; c++) {
         c->trial.next_state = find_next_state(m, c);
         c->trial.unsettled = c->trial.next_state != c->state;
-        const int turn = turn_of(m, c, one);
-        if (!c->trial.unsettled || (worst && turn > first))
-            continue;
-        if (!worst || turn < first || misfit(m, c) > misfit(m, worst))
-            worst = c;
-        first = turn;
+        if (c->trial.unsettled)
+            first = fmax(first, turn_of(m, c, one));
     }
-    for (bbm_contact *c = w->contact; c < w->contact + w->contacts; c++) {
-        if (!c->trial.unsettled || (one ? c != worst : turn_of(m, c, one) > first))
+    for (bbm_contact *c = w->contact; c < w->contact + w->contacts && !(one && changes); c++) {
+        if (!c->trial.unsettled || turn_of(m, c, one) < (one ? 1 : ALIKE) * first)
             continue;
         if (c->state == BBM_OPEN)
             close_contact(m, c);

@@ -269,7 +269,6 @@ bbm_status bbm_jump(bbm_model *m, bbm_model *end, double hit[2]);   /* of a step
 /* refuse.c, statics.c */
 bbm_status bbm_check_settings(bbm_model *m);
 int        bbm_contact_turns_over(const bbm_model *m);
-int        bbm_has_bolts(const bbm_model *m);
 int        bbm_blocks_meet(const bbm_model *m);
 bbm_status bbm_check_solution(bbm_model *m);
 bbm_status bbm_check_depth(bbm_model *m);

@@ -81,11 +81,15 @@ static double curve_of(const bbm_model *m, const bbm_contact *c)
                  Y + u[1] - Dj[1] / 2 - cosine * (Y + y) + sine * x);
 }
 
-/* Whether a program has gaps of its own, as bolts and pins. */
-int bbm_has_bolts(const bbm_model *m) { return m->hook->list_gaps != bbm_list_edge_gaps; }
-
 /* Whether blocks touch, or bolts and pins join them. */
-int bbm_blocks_meet(const bbm_model *m) { return m->scratch->contacts > 0 || bbm_has_bolts(m); }
+int bbm_blocks_meet(const bbm_model *m)
+{
+    int meet = m->scratch->contacts > 0;
+
+    for (const bbm_gap *g = m->gap; g < m->gap + m->gaps; g++)
+        meet |= g->j >= 0 && m->beyond->body[g->i] != m->beyond->body[g->j];
+    return meet;
+}
 
 /* Whether the solution turns and strains no element too far, and none turns while a corner of it,
  * or one at an edge of it, goes a way that is too far off the straight one; a comparison with NaN

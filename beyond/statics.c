@@ -18,24 +18,23 @@
 /* LOOSE [-]    a pivot of the matrix of what holds a body is zero if less than this share of it is
  *              left: about 1e-5 rad of free turning
  * STRIDE [-]   how far blocks may part, against the smaller one's size, in a step from rest and
- *              in the static step from there: contacts and directions are those of its start
- * PACE [-]     or this share of how far they have parted so far, if that is more, up to FAR/2
+ *              in the static step from there: contacts and directions are those of its start. Once
+ *              they have parted by more than FAR it grows in proportion, up to FAR/2
  * LEAP [-]     the same of a static step from where the model is: elastic bodies may flatten
  * FAR [-]      how far they have parted in all when that is no elastic way
- * SWING [-]    the same where a program has gaps of its own, as bolts: what swings on them goes far
  * SLOWS [-]    nor if forces lack less of balance than this share of what they did at half the way:
  *              elastic bodies come to rest so, and what falls does not
+ * SWING [-]    FAR of a program with gaps of its own, as bolts: what swings on them goes far
  * LONG [-]     the first step from rest that is tried, against a swing on what is softest: as in
  *              slow dynamics contacts then close under the whole load, and little slides before
  * SHORT [-]    the shortest step
  * DRIFT [-]    by which, in each step, what was tried is forgotten */
 #define LOOSE 1e-10
 #define STRIDE 1e-3
-#define PACE 0.05
 #define LEAP 0.2
 #define FAR 0.02
-#define SWING 4.0
 #define SLOWS 0.9
+#define SWING 4.0
 #define LONG 100
 #define SHORT 1e-3
 #define DRIFT 0.9
@@ -237,10 +236,9 @@ static bbm_status try_statics(bbm_model *m)
  * the softest element if that gives way more: then it matters who comes first. */
 static bbm_status creep(bbm_model *m, const bbm_model *from)
 {
-    double failed = INFINITY, tried = 0, parted = 0, lacks = 1;
+    double failed = INFINITY, tried = 0, parted = 0, lacks = 1, before = INFINITY;
     double least = INFINITY, softest = m->par.p_n;
-    double far = bbm_has_bolts(m) ? SWING : FAR;
-    double before = INFINITY;                       /* what forces lacked at half of that way */
+    double far = m->hook->list_gaps == bbm_list_edge_gaps ? FAR : SWING;
     bbm_contact worst = { .edge = -1 };
     bbm_status status = BBM_OPEN_CLOSE;
     bbm_beyond *b = m->beyond;
@@ -263,9 +261,9 @@ static bbm_status creep(bbm_model *m, const bbm_model *from)
         if (settles) {
             parted = find_most_parted(from, m, m->contact, m->contacts, &worst);
             b->parted = fmax(b->parted, parted);
-            b->reach = fmax(STRIDE, fmin(FAR / 2, PACE * parted));
+            b->reach = fmax(STRIDE, fmin(FAR / 2, STRIDE / FAR * parted));
             lacks = b->lack;
-            before = parted <= far / 2 ? lacks : before;
+            before = parted <= far / 2 ? lacks : before;    /* at half of that way */
             if (parted > far && lacks > SLOWS * before)
                 return blame(m, from, &worst);
             if (parted > far) {
