@@ -299,6 +299,17 @@ START_TEST(glue_holds_where_the_floor_lets_go_first)
 }
 END_TEST
 
+/* A roof rises with a block that is glued to it by 400 kN and to the floor by 2 kN: the floor lets go. */
+START_TEST(what_is_lifted_comes_off_where_it_is_held_least)
+{
+    ck_assert_int_eq(run_printed("glued", "material r E 1e13 nu 0 density 2000\nblock floor r -5 -1 5 -1 5 0 -5 0\n"
+        "block roof r 0 0.5 2 0.5 2 1 0 1\nblock b r 0 0 2 0 2 0.5 0 0.5\nfixblock floor\nfixblock roof\n"
+        "joint roof b tension 2e5 cohesion 1e7\njoint b floor tension 1e3 cohesion 1e7\ngravity 0 -10\nmonitor b set b\n"
+        "contact kn 1e9 friction 20\nfix set roof y by 0.01\ndynamic dt 0.05 steps 10 velocity_factor 0 settle 20\n"), 0);
+    ck_near(cell("glued", "history.csv", "", "b_v"), 0.01 - 21600 / 2e9, 0.01, 1e-3);    /* weight, 1.6 kN of inertia */
+}
+END_TEST
+
 /* A joint of 10 m in 40 pieces is torn off in shear by a push of 2 MN. In steps of 0.1 ms it has gone 0.3703 m after 0.1 s;
  * in longer ones it falls short of that by 1.1, 2.7 and 2.8 %. If all pieces that bear too much broke at once, it would
  * by 19 % in the longest ones. */
@@ -311,6 +322,17 @@ START_TEST(a_long_joint_tears_from_where_it_bears_most)
         "contact kn 1e10 friction 30\npressure set b.left 2e6\ndynamic dt %g steps %g\nmonitor b set b\n",
         dt[_i], 0.1 / dt[_i]), 0);
     ck_relative(cell("torn", "history.csv", "", "b_u"), 0.3703, off[_i]);
+}
+END_TEST
+
+/* A joint of 80 pieces is pulled straight off by 4 MN; its pieces bear nearly the same. Then its block, of 25 t, goes up
+ * with what its weight leaves: a t^2/2, to 1e-3, for a bonded block sways. */
+START_TEST(a_long_joint_that_bears_alike_comes_off_at_once)
+{
+    ck_assert_int_eq(run_printed("torn", "material r E 1e10 nu 0.2 density 2500\nblock base r -5 -2 15 -2 15 0 -5 0\n"
+        "grid b r 0 0 10 1 80 2\nfixblock base\njoint b base tension 1e5 cohesion 2e5 friction 30\ngravity 0 -10\n"
+        "contact kn 1e10 friction 30\ntraction set b.top 0 4e5\ndynamic dt 1e-3 steps 50\nmonitor b set b\n"), 0);
+    ck_relative(cell("torn", "history.csv", "", "b_v"), (4e6 / 25e3 - 10) * 0.05 * 0.05 / 2, 1e-3);
 }
 END_TEST
 
@@ -1898,7 +1920,9 @@ static void add_loads_and_joints(TCase *t)
     tcase_add_loop_test(t, two_joints_on_one_slope_have_their_own_friction, 0, 2);
     tcase_add_loop_test(t, a_joint_holds_by_its_own_tensile_strength, 0, 6);
     tcase_add_loop_test(t, glue_holds_where_the_floor_lets_go_first, 0, 6);
+    tcase_add_test(t, what_is_lifted_comes_off_where_it_is_held_least);
     tcase_add_loop_test(t, a_long_joint_tears_from_where_it_bears_most, 0, 3);
+    tcase_add_test(t, a_long_joint_that_bears_alike_comes_off_at_once);
     tcase_add_loop_test(t, a_stage_changes_what_a_joint_takes_from_contact, 0, 4);
     tcase_add_test(t, a_joint_that_breaks_says_how);
     tcase_add_loop_test(t, a_block_hangs_on_its_bolt, 0, 4);
