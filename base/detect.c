@@ -538,18 +538,19 @@ static const bbm_contact *find_closed(const bbm_model *m, int corner, int edge)
 
 /* Whether the corner may come to the edge in this step, and not from behind it. One that was closed
  * is not deeper than contacts are, and stays near. One that was inside does so as long as it is no
- * deeper than its rounding, also far from the end that it came past. */
+ * deeper than its rounding, also far from the end that it came past, or at any depth if a hook has
+ * found it there. */
 static int is_near(const bbm_model *m, int corner, int e)
 {
     const double approach = reach_of(m, corner)->travel + reach_of(m, e)->travel;
-    const double deep = bbm_allowed_depth(m, corner, e);
+    const bbm_contact *c = find_closed(m, corner, e);
+    const double deep = c && c->hit == 2 ? INFINITY : bbm_allowed_depth(m, corner, e);
     const projection f = project(m, corner, e);
 
     if (m->edge[e].first == m->edge[corner].first
         || (!is_corner(m, corner) && !bbm_carries(m, corner, e))
         || fmax(f.d, f.beyond) > approach + start_depth(m, corner, e))
         return 0;
-    const bbm_contact *c = find_closed(m, corner, e);
     return -f.d <= approach + fmax(deep, bbm_rounding(m, corner))
         && (c || f.beyond > touch_between(m, corner, e) || f.d >= -deep);
 }

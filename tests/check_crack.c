@@ -500,6 +500,39 @@ START_TEST(tips_that_come_off_inside_the_floor_sink_no_deeper)
 }
 END_TEST
 
+/* Weak stones of square cells fall on a floor, soften and shatter. Corners come off up to 20 mm deep in it and have opened in
+ * the step in which they are caught. All the same none sinks: in the end all are no deeper than a body falls in a step. */
+START_TEST(what_shatters_stays_on_the_floor)
+{
+    const struct { int nx, ny; double E, tension, energy, v[3]; } of[2] = {
+        { 1, 3, 1e10, 2e4, 3, { 0, -8, 0 } },
+        { 1, 2, 4e9, 4e4, 3, { -1, -8, -2 } } };
+    grid g = { .y = .002, .lx = .4 * of[_i].nx, .ly = .4 * of[_i].ny, .nx = of[_i].nx, .ny = of[_i].ny,
+               .triangles = 1 };
+    bbm_model *m = new_blocks();
+
+    m->material[ROCK] = m->material[BASE] = (bbm_material){ of[_i].E, 0.2, 2500, 1 };
+    add_grid(m, &g, 0);
+    add_rectangle(m, 1, BASE, (rectangle){ .x = -9, .y = -1, .w = 18, .h = 1, .fixed = 1 });
+    m->par.dt = 5e-4;
+    m->par.friction = 10;
+    set_springs(m, 5e11, 2e11);
+    m->beyond->bond_tension = of[_i].tension;
+    m->beyond->bond_cohesion = 3 * of[_i].tension;
+    m->beyond->bond_friction = 35;
+    m->beyond->bond_energy = of[_i].energy;
+    ck_ok(bbm_prepare(m), m);
+    for (int e = 0; e < m->elements - 1; e++)
+        memcpy(m->element[e].V, of[_i].v, sizeof of->v);
+    run_steps(m, 600);
+    ck_assert_int_gt(m->beyond->caught, 0);
+    for (int k = 0; k < m->vertices; k++)
+        if (m->vertex[k].element < m->elements - 1)
+            ck_assert_msg(m->vertex[k].y > of[_i].v[1] * m->par.dt, "sunk to %g", m->vertex[k].y);
+    release(m);
+}
+END_TEST
+
 /* Twelve squares fall on a wedge, break and slide past each other by 2 % of their size in a step. A corner that comes off
  * inside the neighbour below is nearer to its side than to its top, but cannot come in there. No piece lies in another in
  * the end: their middles are at least half of their height apart. */
@@ -652,6 +685,7 @@ Suite *crack_suite(void)
              { a_support_that_moves_two_fragments_works_on_each, 2 },
              { fragments_lie_on_the_floor_as_the_body_did, 1 },
              { tips_that_come_off_inside_the_floor_sink_no_deeper, 8 },
+             { what_shatters_stays_on_the_floor, 2 },
              { pieces_that_slide_past_each_other_do_not_go_through, 1 },
              { a_crack_is_said_to_be_between_its_sides, 1 },
              { fragments_go_on_in_a_mirror_as_they_do, 2 },

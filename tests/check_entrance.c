@@ -498,7 +498,7 @@ START_TEST(a_contact_deeper_than_a_tenth_of_its_block_is_refused)
     set_velocity(m, 1, 0, -v);
     ck_assert_int_eq(bbm_step(m), _i % 2 ? BBM_TOO_SOFT : BBM_OK);
     if (_i % 2) {
-        ck_assert_msg(strstr(bbm_message(m), "step 1: a corner of block 1 is 0.11 m deep in block "
+        ck_assert_msg(strstr(bbm_message(m), "step 1: a corner of block 1 is pressed 0.11 m into block "
                                              "0"), "%s", bbm_message(m));
         ck_assert(m->element[1].V[1] == -v && vertex_of(m, 1, 0)->y == 0 && m->info.step == 0);
     } else {
