@@ -118,8 +118,8 @@ static void add_work(bbm_account *a, double work)
 
 /* The accounts of the part of a step from m to `end`, one for each component of K: bodies that
  * touch, are near or are bonded. What rounding of positions makes of kinetic energy, and of the
- * work of contacts, is no gain and no loss. Where nothing has inertia, as in statics, and where
- * velocities are not kept, nothing is there. */
+ * work of contacts, is no gain and no loss; nor is the last digit of what moves an element. Where
+ * nothing has inertia, as in statics, and where velocities are not kept, nothing is there. */
 void bbm_find_accounts(bbm_model *m, const bbm_model *end)
 {
     const bbm_beyond *b = m->beyond;
@@ -138,7 +138,8 @@ void bbm_find_accounts(bbm_model *m, const bbm_model *end)
         of->gain += sum_of(energy_of(end, i, 1, 1)) - before;
         of->there += before + off * (hypot(F[0], F[1]) + hypot(load[0], load[1]));
         of->rounding += 2 * bbm_mass_per_area(&end->element[i]) * end->element[i].A0
-                      * pow(off / m->h, 2);
+                      * pow(off / m->h, 2)
+                      + DBL_EPSILON * hypot(F[0], F[1]) * hypot(m->D[6 * i], m->D[6 * i + 1]);
         add_work(of, b->account[i].held[0] + b->account[i].held[1]);
         for (int a = 0; a < 6; a++)
             add_work(of, load[a] * m->D[6 * i + a]);

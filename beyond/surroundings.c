@@ -267,11 +267,9 @@ void bbm_find_reactions(bbm_model *m)
     bbm_support *s = m->beyond->support;
 
     for (int i = 0; i < m->elements; i++)
-        for (int k = jumps; k < 2; k++)
-            m->beyond->account[i].held[k] = 0;
+        memset(&m->beyond->account[i].held[jumps], 0, (size_t)(2 - jumps) * sizeof(double));
     for (int n = 0; n < m->nodes; n++)
-        for (int k = jumps; k < 2; k++)
-            memset(s[n].part[k], 0, sizeof s[n].part[k]);
+        memset(s[n].part[jumps], 0, (size_t)(2 - jumps) * sizeof *s[n].part);
     for (int v = 0; v < m->vertices && !jumps; v++) {
         const int i = m->vertex[v].element;
         const bbm_element *e = &m->element[i];
