@@ -683,6 +683,32 @@ START_TEST(each_contact_of_a_corner_may_account_for_its_depth)
 }
 END_TEST
 
+/* A fragment that came off 15 cm deep in a square of 1 m is pressed by 1 mm, or by 15 cm from the surface. */
+START_TEST(a_contact_is_too_soft_by_how_far_it_is_pressed)
+{
+    bbm_model *m = weightless_blocks();
+
+    add_rectangle(m, 0, ROCK, (rectangle){ .w = 1, .h = 1 });
+    add_rectangle(m, 1, ROCK, (rectangle){ .x = 1, .w = 1, .h = 1 });
+    set_velocity(m, 1, -1e-3, 0);
+    run_steps(m, 1);
+    ck_assert_int_gt(m->info.contacts, 0);
+    bbm_contact list[1] = { m->contact[0] };
+    bbm_contact *const own = m->scratch->contact;
+    list->state = BBM_LOCK;
+    list->d_n = -0.15;
+    m->scratch->contact = list;
+    m->scratch->contacts = 1;
+    list->rest = -0.149;
+    ck_assert_int_eq(bbm_check_depth(m), BBM_OK);
+    list->rest = 0;
+    ck_assert_int_eq(bbm_check_depth(m), BBM_TOO_SOFT);
+    ck_assert_msg(strstr(bbm_message(m), "is pressed 0.15 m into block"), "%s", bbm_message(m));
+    m->scratch->contact = own;
+    m->scratch->contacts = 0;
+}
+END_TEST
+
 /* A corner passes while a third block presses on one of the two, with corners of its own or on theirs:
  * what it touches does not hold the corner. */
 START_TEST(a_contact_with_a_third_block_accounts_for_no_corner_that_passed)
@@ -792,6 +818,7 @@ Suite *entrance_suite(void)
     add_case(s, "passed",
         { a_corner_that_passed_into_a_block_is_refused, 9 },
         { each_contact_of_a_corner_may_account_for_its_depth, 1 },
+             { a_contact_is_too_soft_by_how_far_it_is_pressed, 1 },
         { a_contact_with_a_third_block_accounts_for_no_corner_that_passed, 4 },
         { a_solution_that_lets_a_corner_pass_is_cut, 1 },
         { a_stone_in_a_hole_is_not_in_the_ring, 1 });
