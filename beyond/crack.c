@@ -423,7 +423,7 @@ bbm_status bbm_catch_corners(bbm_model *m, double search)
 
     while (!(status = bbm_find_near_pairs(m, search)) && y->broken > 0 && y->passed[0] >= 0) {
         bbm_contact c = { .corner = y->passed[0], .edge = y->passed[1], .inside = 1, .hit = 2 };
-        (void)bbm_depth_behind(m, c.corner, c.edge, &c.edge);
+        search = fmax(search, bbm_depth_behind(m, c.corner, c.edge, search, &c.edge));
         if (widen_contacts(m, 1))
             return BBM_NO_MEMORY;
         m->contact[m->contacts++] = c;

@@ -51,13 +51,13 @@ static void take_side(bbm_point a, bbm_point b, int side, bbm_point P, place *at
 
 /* --------------------------------------------------------------------------------- at the start */
 
-/* Corner k of element e at the start. */
+/* Corner k of element e where it is now. */
 static bbm_point corner_of(const bbm_model *m, int e, int k)
 {
     const bbm_element *of = &m->element[e];
-    const bbm_node *n = &m->node[m->vertex[of->first + (k + of->n) % of->n].node];
+    const bbm_vertex *v = &m->vertex[of->first + (k + of->n) % of->n];
 
-    return (bbm_point){ n->x, n->y };
+    return (bbm_point){ v->x + m->origin[0], v->y + m->origin[1] };
 }
 
 /* How deep P lies in element e; 0 outside. */
@@ -139,8 +139,8 @@ static int are_apart(const bbm_model *m, int i, int j)
     return c == all;
 }
 
-/* Looks for the two elements of a prepared model that overlap deepest at the start; o->i = -1 if
- * none do. */
+/* Looks for the two elements of a prepared model that overlap deepest where they are now; o->i = -1
+ * if none do. */
 bbm_status bbm_find_overlap(const bbm_model *m, bbm_overlap *o)
 {
     bbm_box *b = malloc((size_t)m->elements * sizeof *b);
@@ -192,11 +192,11 @@ bbm_status bbm_check_overlap(bbm_model *m)
  * an edge ends the next one starts a little apart, as far as their bonds have opened. The boundary
  * goes from start to start and once more from end to end. What lies inside of one of them alone
  * lies in such a gap, where no contact keeps it out. `over`: the edge over which the corner has
- * come, the nearest that it can enter over, or else the nearest. */
-static double depth_in_block(const bbm_model *m, int corner, int edge, int *over)
+ * come, the nearest that it can enter over, if it is not far, or else the nearest. */
+static double depth_in_block(const bbm_model *m, int corner, int edge, double far, int *over)
 {
     const bbm_point P = bbm_point_at(m, m->edge[corner].a);
-    place starts = { .distance2 = INFINITY }, ends = starts, entered = starts;
+    place starts = { .distance2 = INFINITY }, ends = starts, entered = { far * far, -1, 0 };
     int e = edge;
 
     do {
@@ -207,7 +207,7 @@ static double depth_in_block(const bbm_model *m, int corner, int edge, int *over
             take_side(bbm_point_at(m, E->a), bbm_point_at(m, E->b), e, P, &entered);
         e = E->next;
     } while (e != edge);
-    *over = isfinite(entered.distance2) ? entered.nearest : starts.nearest;
+    *over = entered.nearest >= 0 ? entered.nearest : starts.nearest;
     return starts.winding > 0 && ends.winding > 0
          ? sqrt(fmin(starts.distance2, ends.distance2)) : 0;
 }
@@ -229,7 +229,7 @@ static double depth_between(const bbm_model *m, const bbm_contact *c, int n, int
 
 /* How deep a corner lies in the block of an edge behind which it is, deeper than contacts are, and
  * the edge over which it has come; else 0, as for two that are held, which have no contacts. */
-double bbm_depth_behind(const bbm_model *m, int corner, int edge, int *over)
+double bbm_depth_behind(const bbm_model *m, int corner, int edge, double far, int *over)
 {
     const bbm_point P = bbm_point_at(m, m->edge[corner].a), a = bbm_point_at(m, m->edge[edge].a);
     const bbm_point b = bbm_point_at(m, m->edge[edge].b);
@@ -241,7 +241,7 @@ double bbm_depth_behind(const bbm_model *m, int corner, int edge, int *over)
         || (bbm_is_held_all_round(m, &m->element[m->edge[corner].element])
             && bbm_is_held_all_round(m, &m->element[m->edge[edge].element])))
         return 0;
-    const double depth = depth_in_block(m, corner, edge, over);
+    const double depth = depth_in_block(m, corner, edge, far, over);
     return depth > fmax(allowed, bbm_allowed_depth(m, corner, *over)) ? depth : 0;
 }
 
@@ -249,7 +249,7 @@ double bbm_depth_behind(const bbm_model *m, int corner, int edge, int *over)
  * corner pass. Else 0. */
 double bbm_depth_passed(const bbm_model *m, int corner, int edge)
 {
-    double depth = bbm_depth_behind(m, corner, edge, &(int){ 0 });
+    double depth = bbm_depth_behind(m, corner, edge, INFINITY, &(int){ 0 });
 
     for (int k = m->edge[corner].contact; k < m->contacts && m->contact[k].corner == corner; k++)
         depth = depth_between(m, &m->contact[k], 1, corner, edge) >= 0 ? 0 : depth;
@@ -288,7 +288,7 @@ bbm_status bbm_check_passing(bbm_model *m, const bbm_model *end)
     for (const bbm_contact *c = list; c < list + n; c++) {
         if (c->state != BBM_OPEN || c->d_n >= 0 || c->trial.was_closed || c->inside)
             continue;
-        const double depth = bbm_depth_behind(end, c->corner, c->edge, &(int){ 0 });
+        const double depth = bbm_depth_behind(end, c->corner, c->edge, INFINITY, &(int){ 0 });
         if (depth > DEEPER * fmax(0, depth_between(m, list, n, c->corner, c->edge)))
             return refuse(m, end, c->corner, c->edge, depth);
     }

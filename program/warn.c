@@ -17,6 +17,8 @@ enum { NAMED = 10 };            /* pieces of a block that a warning names       
 #define STILL 1e-10
 /* Of their size: from there on blocks that have moved without end would be said to fall. */
 #define PARTED 0.02
+/* Of the size of the smaller of two elements: what came off lies less deep in its neighbours. */
+#define PASSED 0.02
 /* Grid points of the one side for one of the other. */
 #define COARSE 2.5
 
@@ -489,6 +491,20 @@ static double find_imbalance(bbm_model *m)
     return share;
 }
 
+/* Fragments that have passed into each other, or into what they fell on. */
+static void warn_of_fragments(const model *p, const char *path)
+{
+    const bbm_model *m = p->m;
+    bbm_overlap o;
+
+    if (m->beyond->broken == 0 || bbm_find_overlap(m, &o) || o.i < 0
+        || o.depth < PASSED * sqrt(fmin(m->element[o.i].A, m->element[o.j].A)))
+        return;
+    warn(path, "elements '%.60s' and '%.60s' are %.2g m deep in each other at (%.9g, %.9g): what "
+               "broke has passed; a smaller dt may help", p->element[o.i], p->element[o.j],
+         o.depth, o.x, o.y);
+}
+
 void warn_after(const model *p, const char *path)
 {
     double most = 0, strain = 0;
@@ -517,6 +533,7 @@ void warn_after(const model *p, const char *path)
                    "positions have no more digits; a smaller kn or softer bolts help",
              p->m->beyond->breach);
     warn_of_coarse_sides(p, path);
+    warn_of_fragments(p, path);
     const double lack = p->dynamic ? 0 : find_imbalance(p->m);
     const bbm_status found = p->dynamic ? BBM_OK : bbm_find_stability(p->m, &stable);
     if (found == BBM_BLOCKS_OVERLAP)

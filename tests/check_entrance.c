@@ -683,6 +683,30 @@ START_TEST(each_contact_of_a_corner_may_account_for_its_depth)
 }
 END_TEST
 
+/* The left tip of a square on its tip is 1 cm below the top of another square. It can come in over the right side alone,
+ * which is 30 cm away: it has come over that, unless that is too far. */
+START_TEST(a_corner_that_passed_has_come_over_a_near_side)
+{
+    const double tip[4][2] = { { 0.7, 1.99 }, { 1, 1.69 }, { 1.3, 1.99 }, { 1, 2.29 } };
+    bbm_model *m = weightless_blocks();
+    int over[2];
+
+    add_rectangle(m, 0, ROCK, (rectangle){ .w = 1, .h = 1 });
+    add_polygon(m, 1, 4, tip);
+    prepare(m);
+    shift_element(m, 1, 0, -1);
+    const int corner = bbm_edge_at(m, m->element[1].first), side = bbm_edge_at(m, m->element[0].first);
+    for (int far = 0; far < 2; far++)
+        for (int e = 0; e < 4; e++) {
+            const double depth = bbm_depth_behind(m, corner, e, far ? 1 : 0.1, &over[far]);
+            ck_assert(depth == 0 || fabs(depth - 0.01) < ROUNDING);
+        }
+    ck_assert_int_eq(side, 0);
+    ck_assert_int_eq(over[0], 2);
+    ck_assert_int_eq(over[1], 1);
+}
+END_TEST
+
 /* A fragment that came off 15 cm deep in a square of 1 m is pressed by 1 mm, or by 15 cm from the surface. */
 START_TEST(a_contact_is_too_soft_by_how_far_it_is_pressed)
 {
@@ -818,6 +842,7 @@ Suite *entrance_suite(void)
     add_case(s, "passed",
         { a_corner_that_passed_into_a_block_is_refused, 9 },
         { each_contact_of_a_corner_may_account_for_its_depth, 1 },
+             { a_corner_that_passed_has_come_over_a_near_side, 1 },
              { a_contact_is_too_soft_by_how_far_it_is_pressed, 1 },
         { a_contact_with_a_third_block_accounts_for_no_corner_that_passed, 4 },
         { a_solution_that_lets_a_corner_pass_is_cut, 1 },
