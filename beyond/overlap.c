@@ -51,13 +51,13 @@ static void take_side(bbm_point a, bbm_point b, int side, bbm_point P, place *at
 
 /* --------------------------------------------------------------------------------- at the start */
 
-/* Corner k of element e where it is now. */
+/* Corner k of element e at the start. */
 static bbm_point corner_of(const bbm_model *m, int e, int k)
 {
     const bbm_element *of = &m->element[e];
-    const bbm_vertex *v = &m->vertex[of->first + (k + of->n) % of->n];
+    const bbm_node *n = &m->node[m->vertex[of->first + (k + of->n) % of->n].node];
 
-    return (bbm_point){ v->x + m->origin[0], v->y + m->origin[1] };
+    return (bbm_point){ n->x, n->y };
 }
 
 /* How deep P lies in element e; 0 outside. */
@@ -139,8 +139,8 @@ static int are_apart(const bbm_model *m, int i, int j)
     return c == all;
 }
 
-/* Looks for the two elements of a prepared model that overlap deepest where they are now; o->i = -1
- * if none do. */
+/* Looks for the two elements of a prepared model that overlap deepest at the start; o->i = -1 if
+ * none do. */
 bbm_status bbm_find_overlap(const bbm_model *m, bbm_overlap *o)
 {
     bbm_box *b = malloc((size_t)m->elements * sizeof *b);

@@ -491,18 +491,29 @@ static double find_imbalance(bbm_model *m)
     return share;
 }
 
-/* Fragments that have passed into each other, or into what they fell on. */
+/* Fragments that have passed into each other, or into what they fell on: those overlap in a model
+ * that begins where this one has come to, in which each vertex is a node. */
 static void warn_of_fragments(const model *p, const char *path)
 {
-    const bbm_model *m = p->m;
-    bbm_overlap o;
+    bbm_model now = *p->m;
+    bbm_overlap o = { .i = -1 };
 
-    if (m->beyond->broken == 0 || bbm_find_overlap(m, &o) || o.i < 0
-        || o.depth < PASSED * sqrt(fmin(m->element[o.i].A, m->element[o.j].A)))
-        return;
-    warn(path, "elements '%.60s' and '%.60s' are %.2g m deep in each other at (%.9g, %.9g): what "
-               "broke has passed; a smaller dt may help", p->element[o.i], p->element[o.j],
-         o.depth, o.x, o.y);
+    now.node = calloc((size_t)now.vertices, sizeof *now.node);
+    now.vertex = calloc((size_t)now.vertices, sizeof *now.vertex);
+    for (int v = 0; v < now.vertices && now.node && now.vertex; v++) {
+        now.vertex[v].node = v;
+        now.node[v].x = p->m->vertex[v].x + now.origin[0];
+        now.node[v].y = p->m->vertex[v].y + now.origin[1];
+    }
+    if (now.beyond->broken > 0 && now.node && now.vertex)
+        (void)bbm_find_overlap(&now, &o);
+    free(now.node);
+    free(now.vertex);
+    if (o.i >= 0 && o.depth > now.info.penetration
+        + PASSED * sqrt(fmin(now.element[o.i].A, now.element[o.j].A)))
+        warn(path, "elements '%.60s' and '%.60s' are %.2g m deep in each other at (%.9g, %.9g): "
+                   "what broke has passed; a smaller dt may help", p->element[o.i],
+             p->element[o.j], o.depth, o.x, o.y);
 }
 
 void warn_after(const model *p, const char *path)
