@@ -290,12 +290,13 @@ bbm_pass bbm_break_bonds(bbm_model *m)
         for (int b = 0; b < m->bonds; b++)
             if (find_load(m, b) >= most * (1 - SAME))
                 damage(m, b);
-        m->scratch->passes = m->scratch->one_until = y->round = 0;
+        m->scratch->passes = m->scratch->one_until = 0;
         y->breaks++;
         y->loose = bbm_is_static(m) ? find_loose(m) : -1;
         if (y->loose >= 0)
             return BBM_PASS_GIVE_UP;
     }
+    y->round = 0;
     bbm_list_gaps(m);
     return y->breaks > BREAKS ? BBM_PASS_GIVE_UP : BBM_PASS_AGAIN;
 }

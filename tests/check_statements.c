@@ -457,6 +457,25 @@ START_TEST(fragments_that_have_passed_into_each_other_are_told)
 }
 END_TEST
 
+/* A bond that begins to soften is pulled open in one static step, by 15 or 16.5 times what it bears. Beyond c/tan(phi), 15.6
+ * times, no shear is borne: its ends close for a pass and open again. Both steps end on the line of the same tooth, from
+ * the origin; 1e-6: the solver's. */
+START_TEST(a_static_step_far_beyond_its_strength_leaves_a_bond_no_stronger)
+{
+    double spring[2];
+
+    for (int far = 0; far < 2; far++) {
+        const double way = far ? 3.3e-4 : 3e-4;
+        ck_assert_int_eq(run_printed("far", "material r E 1e11 nu 0.2 density 2500\ngrid b r 0 0 2 1 2 1\nbond tension 1e6 "
+            "cohesion 9e6 friction 30 energy 1e4\nfix set b.left x\nfix at 0 0 y\nfix at 2 0 y\nfix set b.right x by %g\n"
+            "monitor s support set b.right\nstatic\n", way), 0);
+        spring[far] = cell("far", "history.csv", "", "s_fx") / way;
+    }
+    ck_assert_double_gt(spring[0], 1e8);
+    ck_relative(spring[1], spring[0], 1e-6);
+}
+END_TEST
+
 /* Loads swing blocks that hang on two bolts: statics finds them where quasi-static steps do, and neither upside down nor
  * turned once more. 1e-3 m: these steps end so near. */
 START_TEST(what_swings_on_its_bolts_hangs_as_short_steps_have_it)
@@ -1961,6 +1980,7 @@ static void add_loads_and_joints(TCase *t)
     tcase_add_loop_test(t, what_swings_on_its_bolts_hangs_as_short_steps_have_it, 0, 3);
     tcase_add_loop_test(t, what_slides_off_a_ledge_hangs_on_its_bolt, 0, 4);
     tcase_add_test(t, what_a_first_static_step_has_moved_far_is_told_after_the_last_one);
+    tcase_add_test(t, a_static_step_far_beyond_its_strength_leaves_a_bond_no_stronger);
     tcase_add_loop_test(t, fragments_that_have_passed_into_each_other_are_told, 0, 2);
     tcase_add_test(t, a_held_quadrilateral_that_loses_its_last_bond_makes_no_energy);
     tcase_add_test(t, strength_of_bonds_changes_nothing_where_there_is_none);
