@@ -172,7 +172,7 @@ static void find_traction(const bbm_model *m, int b, double s[3])
     s[2] = softens ? s[0] : ((S[0] + S[1]) / 2 + hypot((S[0] - S[1]) / 2, S[2])) / S[3];
 }
 
-/* The load of a bond against its strength; more than 1: it breaks. */
+/* The load of a bond, so many times that under which it breaks if s and t grow together. */
 static double find_load(const bbm_model *m, int b)
 {
     const bbm_beyond *y = m->beyond;
@@ -183,11 +183,10 @@ static double find_load(const bbm_model *m, int b)
 
     if (c->tooth == BROKEN)
         return 0;
-    const double strength = y->bond_cohesion * left - c->s[0] * friction;
+    const double sheared = (fabs(c->s[1]) + c->s[0] * friction) / (y->bond_cohesion * left);
     const int pulls = c->tooth > 0 ? c->s[0] > 0
                                    : c->across > 0 && c->across >= (1 - SAME) * best;
     const double pulled = pulls ? c->s[2] / (y->bond_tension * left) : 0;
-    const double sheared = strength > 0 ? fabs(c->s[1]) / strength : c->s[0] > 0 ? INFINITY : 0;
 
     c->shears = sheared > pulled;
     return fmax(pulled, sheared);
