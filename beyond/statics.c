@@ -337,6 +337,7 @@ static bbm_status settle(bbm_model *m)
     if (!status)
         m->message[0] = '\0';
     else {
+        m->gaps = from.gaps;
         copy_state(m, was, 1);                  /* what it was, but for its message */
         free(m->scratch->contact);
         m->scratch->contact = list;
