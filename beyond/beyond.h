@@ -297,7 +297,7 @@ typedef struct {                /* elements i < j that overlap                  
 } bbm_overlap;
 bbm_status bbm_check_overlap(bbm_model *m);
 bbm_status bbm_find_overlap(const bbm_model *m, bbm_overlap *o);    /* the deepest; i = -1: none */
-double     bbm_depth_behind(const bbm_model *m, int corner, int edge, double far, int *over);       /* m    */
+double     bbm_depth_behind(const bbm_model *m, int corner, int edge, double far, int *over);
 double     bbm_depth_passed(const bbm_model *m, int corner, int edge);      /* m                */
 bbm_status bbm_check_passed(bbm_model *m);              /* of all that the sweep has met        */
 bbm_status bbm_check_passing(bbm_model *m, const bbm_model *end);   /* in the step in hand      */

@@ -125,7 +125,7 @@ bbm_status bbm_check_depth(bbm_model *m)
         if (c->state != BBM_OPEN && c->rest - c->d_n > DEEP * bbm_size_at(m, c))
             return bbm_fail(m, BBM_TOO_SOFT, "step %d: a corner of block %d is pressed %.2g m "
                             "into block %d, a tenth of the smaller one; larger stiffnesses p_n, "
-                            "p_s help", m->info.step + 1, m->edge[c->corner].block, c->rest - c->d_n,
-                            m->edge[c->edge].block);
+                            "p_s help", m->info.step + 1, m->edge[c->corner].block,
+                            c->rest - c->d_n, m->edge[c->edge].block);
     return BBM_OK;
 }
