@@ -172,7 +172,11 @@ static void find_traction(const bbm_model *m, int b, double s[3])
     s[2] = softens ? s[0] : ((S[0] + S[1]) / 2 + hypot((S[0] - S[1]) / 2, S[2])) / S[3];
 }
 
-/* The load of a bond, so many times that under which it breaks if s and t grow together. */
+/* How many times too much a bond bears: the larger one of
+ *
+ *     s1 / tension   and   (|t| + s tan(friction)) / cohesion,
+ *
+ * each strength as far as it is left. Above 1 it breaks. Divided by it, s and t are just borne. */
 static double find_load(const bbm_model *m, int b)
 {
     const bbm_beyond *y = m->beyond;

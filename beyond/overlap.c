@@ -228,7 +228,7 @@ static double depth_between(const bbm_model *m, const bbm_contact *c, int n, int
 }
 
 /* How deep a corner lies in the block of an edge behind which it is, deeper than contacts are, and
- * the edge over which it has come, no farther than `far` if it can; else 0, as for two that are
+ * the edge over which it has come, no farther than `far` [m] if it can; else 0, as for two that are
  * held, which have no contacts. */
 double bbm_depth_behind(const bbm_model *m, int corner, int edge, double far, int *over)
 {

@@ -498,6 +498,8 @@ static void warn_of_fragments(const model *p, const char *path)
     bbm_model now = *p->m;
     bbm_overlap o = { .i = -1 };
 
+    if (now.beyond->broken == 0)
+        return;
     now.node = calloc((size_t)now.vertices, sizeof *now.node);
     now.vertex = calloc((size_t)now.vertices, sizeof *now.vertex);
     for (int v = 0; v < now.vertices && now.node && now.vertex; v++) {
@@ -505,7 +507,7 @@ static void warn_of_fragments(const model *p, const char *path)
         now.node[v].x = p->m->vertex[v].x + now.origin[0];
         now.node[v].y = p->m->vertex[v].y + now.origin[1];
     }
-    if (now.beyond->broken > 0 && now.node && now.vertex)
+    if (now.node && now.vertex)
         (void)bbm_find_overlap(&now, &o);
     free(now.node);
     free(now.vertex);
