@@ -109,3 +109,16 @@ double cell(const char *name, const char *file, const char *row, const char *col
     return strtod(p, NULL);
 }
 
+double sum(const char *name, const char *file, const char *column, const char *part)
+{
+    ck_assert_int_eq(shell("awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) if ($k == \"%s\") c = k; "
+                           "next } /%s/ { s += $c } END { printf \"%%.15g\", s }' out/model/%s/%s "
+                           "> out/model/sum", column, part, name, file), 0);
+    return strtod(slurp("out/model/sum"), NULL);
+}
+
+int run_with(const char *model, const char *lets)
+{
+    return shell("%s/bbm -q cases/models/%s.model %s -o out/model/%s > out/model/said 2> out/model/err", BUILD,
+                 model, lets, model);
+}
