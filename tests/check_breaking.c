@@ -2,7 +2,6 @@
 #define _POSIX_C_SOURCE 200809L
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "programs.h"
@@ -223,8 +222,6 @@ START_TEST(a_bond_along_the_tension_holds)
 }
 END_TEST
 
-/* Two squares are torn apart without velocities, at odd angles: then each step takes 2 M/dt^2 times the
- * way of the one that is pulled, half of it at each node. The other one bears nothing, and no step is cut. */
 /* A bar of two cells on a floor, that is pulled apart by more than friction holds: its bond bears 25.5 kPa. Statics finds
  * that equilibrium in steps from rest, which break nothing. It is one if the bond is as strong as that. */
 START_TEST(an_equilibrium_in_which_a_bond_bears_too_much_is_none)
@@ -236,6 +233,8 @@ START_TEST(an_equilibrium_in_which_a_bond_bears_too_much_is_none)
 }
 END_TEST
 
+/* Two squares are torn apart without velocities, at odd angles: then each step takes 2 M/dt^2 times the
+ * way of the one that is pulled, half of it at each node. The other one bears nothing, and no step is cut. */
 START_TEST(what_is_torn_off_costs_its_drag_alone)
 {
     ck_assert_int_eq(run_text("torn", "material rock E 1e9 nu 0 density 2500\nlet c $(cos(20))\nlet s $(sin(20))\n"

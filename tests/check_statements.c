@@ -1,7 +1,6 @@
 /* check_statements.c - what statements of model files mean: sets, grids and places, numbers with a name, what a model
  * expects of itself, limits, and warnings of what is hardly meant. */
 #define _POSIX_C_SOURCE 200809L
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -389,7 +388,6 @@ START_TEST(arithmetic_has_its_value_to_15_digits)
 }
 END_TEST
 
-/* A wall in a triangle by rounds, of which the first has none, and by hand. */
 /* Books of length 1 that each stand out by 1/(2 i): the sum is 25/24. A number for each round, and a set that grows. */
 START_TEST(rounds_add_up_numbers_and_sets_and_keep_numbers_by_name)
 {
@@ -415,6 +413,7 @@ START_TEST(rounds_add_up_numbers_and_sets_and_keep_numbers_by_name)
 }
 END_TEST
 
+/* A wall in a triangle by rounds, of which the first has none, and by hand. */
 START_TEST(what_is_repeated_is_what_stands_there_so_often)
 {
     static const char *const by[] = {
