@@ -12,10 +12,11 @@
  * one with the largest s/s1. So a mesh whose bonds all lie askew is as strong as another one. A
  * bond along the tension, with less than a third, is not pulled apart by it.
  *
- * When all else in a step has settled, the bond with the largest load breaks, and those that are
- * loaded as much, which symmetry asks for. Then the step is solved again, until all hold. So one
- * crack runs before a cloud of them appears. Nothing has moved by then: the order is that of the
- * loads and not of the list, and a step that is tried again begins with the cracks of the last one.
+ * When all else in a step has settled, and the list of contacts reaches as far as the solution
+ * moves, the bond with the largest load breaks, and those that are loaded as much, which symmetry
+ * asks for. Then the step is solved again, until all hold. So one crack runs before a cloud of them
+ * appears. Nothing has moved by then: the order is that of the loads and not of the list, and a
+ * step that is tried again begins with the cracks of the last one.
  *
  * A bond that has broken, or that softens, has a spring at each of its two ends, with w the opening
  * and v the slip there. In compression it has the stiffness k of (4), else what is left of it:
@@ -288,7 +289,9 @@ bbm_pass bbm_break_bonds(bbm_model *m)
         for (int b = 0; b < m->bonds; b++)
             most = fmax(most, find_load(m, b));
         y->overload = most;
-        if (most == 1 || (isinf(m->par.dt) && !bbm_is_static(m)))
+        if (most > 1 && bbm_moved_too_far(m))
+            m->detections = 0;                  /* other contacts may bear it: they come first  */
+        if (most == 1 || m->detections == 0 || (isinf(m->par.dt) && !bbm_is_static(m)))
             return BBM_PASS_DONE;
         for (int b = 0; b < m->bonds; b++)
             if (find_load(m, b) >= most * (1 - SAME))
@@ -296,12 +299,10 @@ bbm_pass bbm_break_bonds(bbm_model *m)
         m->scratch->passes = m->scratch->one_until = 0;
         y->breaks++;
         y->loose = bbm_is_static(m) ? find_loose(m) : -1;
-        if (y->loose >= 0)
-            return BBM_PASS_GIVE_UP;
     }
     y->round = 0;
     bbm_list_gaps(m);
-    return y->breaks > BREAKS ? BBM_PASS_GIVE_UP : BBM_PASS_AGAIN;
+    return y->loose >= 0 || y->breaks > BREAKS ? BBM_PASS_GIVE_UP : BBM_PASS_AGAIN;
 }
 
 /* ------------------------------------------------------------------------------------ fragments */

@@ -166,6 +166,20 @@ START_TEST(of_bonds_that_bear_far_too_much_the_one_that_bears_most_breaks)
 }
 END_TEST
 
+/* A bar is pulled against a wall 1 mm away, in one step. Its own bonds would bear 4 MPa; but the wall lets it stretch by 1 mm
+ * of 4 m alone, and it bears 0.25 MPa. No bond breaks before the wall is in the list of contacts. */
+START_TEST(a_bond_holds_where_a_contact_that_closes_in_the_step_bears_the_load)
+{
+    static const char *const ways[] = { "static", "static steps 3", "dynamic dt 1 steps 3 velocity_factor 0",
+                                        "dynamic dt 0.01 steps 5" };
+
+    ck_assert_int_eq(run_printed("wall", "material r E 1e9 nu 0 density 2500\ngrid b r 0 0 4 1 4 1\nfix set b.left\n"
+        "block w r 4.001 -1 5 -1 5 2 4.001 2\nfixblock w\nload set b.right 4e6 0\nbond tension 1e6 cohesion 1e7\n"
+        "contact friction 30 kn 1e12\n%s\n", ways[_i]), 0);
+    ck_assert_str_eq(slurp("out/model/wall/cracks.csv"), "step,bond,x,y,mode\n");
+}
+END_TEST
+
 /* A bond is pulled open in one static step, far beyond what it bears. Its cohesion is so low that shear breaks it, so that its
  * ends push at first and open in the next pass. It ends on the line of the same tooth, from the origin, as in twenty steps;
  * 1e-6: the solver's. */
@@ -324,6 +338,7 @@ Suite *breaking_suite(void)
     tcase_add_test(t, a_joint_that_breaks_says_how);
     tcase_add_test(t, a_search_for_an_equilibrium_that_fails_puts_back_what_it_took);
     tcase_add_loop_test(t, of_bonds_that_bear_far_too_much_the_one_that_bears_most_breaks, 0, 2);
+    tcase_add_loop_test(t, a_bond_holds_where_a_contact_that_closes_in_the_step_bears_the_load, 0, 4);
     tcase_add_test(t, a_static_step_far_beyond_its_strength_leaves_a_bond_no_stronger);
     tcase_add_loop_test(t, fragments_that_have_passed_into_each_other_are_told, 0, 4);
     tcase_add_test(t, a_held_quadrilateral_that_loses_its_last_bond_makes_no_energy);
