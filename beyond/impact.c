@@ -18,12 +18,13 @@
  * vibrating. A held point counts from h/2 w, w the velocity of its support, and so does what is
  * held all round. A closed contact counts from h/2 v, v the velocity that is asked for: 0; or, if
  * it is hit, -E times the normal velocity with which it came; or, without a restitution, the one
- * that it has. One that has closed in this step is hit, but not again before it has been outside: a
- * block that comes to rest would hop from corner to corner, and sink in each hop. The open-close
- * iteration finds which contacts stay closed and which slide. It judges the forces of the step and
- * of the jump together, for they act in the same time: F takes back the contact forces of the step,
- * and the jump finds them anew. A contact that is not hit begins with its normal force, or what is
- * squeezed would lose it. In between two bodies all this is push and pull, so that momentum stays.
+ * that it has, also along the edge. One that has closed in this step is hit, but not again before
+ * it has been outside: a block that comes to rest would hop from corner to corner, and sink in each
+ * hop. The open-close iteration finds which contacts stay closed and which slide. It judges the
+ * forces of the step and of the jump together, for they act in the same time: F takes back the
+ * contact forces of the step, and the jump finds them anew. A contact that is not hit begins with
+ * its normal force, or what is squeezed would lose it; without a restitution with its shear force,
+ * too. In between two bodies all this is push and pull, so that momentum stays.
  *
  * With a restitution a contact that is hit, or that the jump opens, has had its impulse: its spring
  * starts unloaded. Without one it keeps what it bears, or a light block that moves to and fro under
@@ -62,16 +63,16 @@
 /* How often springs double that begin soft. */
 enum { SOFTER = 10 };
 
-/* The normal velocity of P1, where elements move as those of `of`. */
-static double normal_velocity(const bbm_model *m, const bbm_contact *c, const bbm_element of[])
+/* The velocity of P1 along the normal (0) or the edge (1), where elements move as those of `of`. */
+static double velocity(const bbm_model *m, const bbm_contact *c, const bbm_element of[], int way)
 {
-    double velocity = 0;
+    double sum = 0;
     bbm_spring v[2];
 
     bbm_contact_vectors(m, c, c->anchor, v);
     for (int a = 0; a < 6 * c->parts; a++)
-        velocity += v[0].v[a / 6][a % 6] * of[c->element[a / 6]].V[a % 6];
-    return velocity;
+        sum += v[way].v[a / 6][a % 6] * of[c->element[a / 6]].V[a % 6];
+    return sum;
 }
 
 /* h/2 times the normal velocity with which P1 came. It changes evenly over the step, with the mean
@@ -79,7 +80,7 @@ static double normal_velocity(const bbm_model *m, const bbm_contact *c, const bb
  * end, springs have changed the way: it has the velocity of the start. */
 static double approach(const bbm_model *m, const bbm_contact *c)
 {
-    const double t = 1 - c->trial.time_left, came = m->h / 2 * normal_velocity(m, c, m->element);
+    const double t = 1 - c->trial.time_left, came = m->h / 2 * velocity(m, c, m->element, 0);
 
     return t == 0 || c->trial.closings > 1 ? came : (1 - 2 * t) * came - fmax(0, c->trial.d_n0);
 }
@@ -261,8 +262,8 @@ static void start_gaps(bbm_model *m, const bbm_model *end)
     }
 }
 
-/* The contacts of `step`, the model at the start of the step, with springs as stiff as p_n is.
- * `again`: in the states that softer ones have found. */
+/* The contacts of `step`, the model at the start of the step, with springs as stiff as p_n is; d_s
+ * is linear in the anchor. `again`: in the states that softer ones have found. */
 static void start_contacts(bbm_model *m, const bbm_model *step, int again)
 {
     const double E = m->beyond->restitution;
@@ -274,10 +275,11 @@ static void start_contacts(bbm_model *m, const bbm_model *step, int again)
         bbm_spring v[2], from_end[2];
         bbm_contact_vectors(m, c, 0, v);
         bbm_contact_vectors(m, c, 1, from_end);
-        c->anchor = v[1].d / (v[1].d - from_end[1].d);      /* where d_s is 0: it is linear     */
+        const double slip = bbm_shear_force(c) / m->par.p_s - m->h * velocity(m, c, m->element, 1);
+        c->anchor = (v[1].d - (E < 0 && of->jumps > 0) * slip) / (v[1].d - from_end[1].d);
         const int hits = E >= 0 && has_closed(m, c) && (c->hit != 1 || of->struck > 1);
         const double asked = hits ? E * sqrt(of->asked) * fmax(0, -approach(step, c))
-                           : c->N / m->par.p_n + (E < 0) * m->h * normal_velocity(m, c, m->element);
+                           : c->N / m->par.p_n + (E < 0) * m->h * velocity(m, c, m->element, 0);
         c->state = of->jumps == 0 ? BBM_OPEN : c->state;
         c->rest = c->state == BBM_OPEN ? -INFINITY : v[0].d + (of->jumps > 0) * asked;
         c->strength = of->jumps < -1 ? (bbm_strength){ 0 } : c->strength;
@@ -339,8 +341,8 @@ static int find_causes(const bbm_model *m, const bbm_model *end)
     for (bbm_contact *c = m->scratch->contact; c < bbm_end_of_contacts(m); c++)
         if (account_of(m, c->element[0])->jumps && c->state == BBM_OPEN && !c->trial.was_closed
             && !bbm_is_blocked(m, c)
-            && (c->d_n < -EARLY * m->h * normal_velocity(m, c, end->element)
-                || c->trial.d_n0 < -m->h * normal_velocity(m, c, m->element)))
+            && (c->d_n < -EARLY * m->h * velocity(m, c, end->element, 0)
+                || c->trial.d_n0 < -m->h * velocity(m, c, m->element, 0)))
             c->state = BBM_LOCK;
     for (int v = 0; v < m->vertices; v++)
         any |= account_of(m, m->vertex[v].element)->jumps |= moves(m, m->vertex[v].node);
@@ -401,7 +403,7 @@ static void find_energy_of_hits(const bbm_model *m, const bbm_model *step, const
         if (!has_closed(m, c) || mobile == 0)
             continue;
         const double came = 2 / m->h * approach(step, c);
-        const double left = normal_velocity(m, c, end->element);
+        const double left = velocity(m, c, end->element, 0);
         hit[0] += came * came / (2 * mobile);
         hit[1] += left * left / (2 * mobile);
     }

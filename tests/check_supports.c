@@ -554,6 +554,27 @@ START_TEST(a_bolt_within_one_body_moves_it_nowhere)
 }
 END_TEST
 
+/* A block that is turned by 10 degrees hits a plate, and rubs on it. If the plate moves by 1e-9 m meanwhile, as far as
+ * rounding counts nothing has changed; 1e-6: of the hit's velocity. */
+START_TEST(a_support_that_hardly_moves_changes_no_hit)
+{
+    double v[2][3];
+
+    for (int k = 0; k < 2; k++) {
+        ck_assert_int_eq(run_printed("grazes", "material rigid E 1e14 nu 0.25 density 2500\nmaterial rock E 1e12 nu 0.25 density "
+            "2500\nblock plate rigid -2 -1 2 -1 2 0 -2 0\nlet c $(cos(10))\nlet s $(sin(10))\nfixblock plate\n"
+            "block stone rock 0 0.01 $c $(0.01 + s) $(c - s) $(0.01 + c + s) $(-s) $(0.01 + c)\nvelocity stone 0 -1\n"
+            "fix set plate %s by %g\ncontact kn 1e9 friction 30\ndynamic dt 5e-4 steps 60\n", _i ? "y" : "x", k * 1e-9), 0);
+        v[k][0] = cell("grazes", "elements.csv", "2,", "vx");
+        v[k][1] = cell("grazes", "elements.csv", "2,", "vy");
+        v[k][2] = cell("grazes", "elements.csv", "2,", "spin");
+    }
+    ck_assert_double_gt(fabs(v[0][2]), 1);
+    for (int a = 0; a < 3; a++)
+        ck_near(v[1][a], v[0][a], 1, 1e-6);
+}
+END_TEST
+
 /* Lifted, or pulled, at one corner from the first step on, while its side lies on the floor. */
 START_TEST(a_restitution_changes_no_lift_by_a_support)
 {
@@ -636,6 +657,7 @@ Suite *supports_suite(void)
     tcase_add_loop_test(t, a_body_that_bears_nothing_from_outside_balances_whatever_its_size, 0, 4);
     tcase_add_loop_test(t, a_bolt_within_one_body_moves_it_nowhere, 0, 3);
     tcase_add_test(t, a_bolt_pulls_alike_whether_hits_give_back_or_not);
+    tcase_add_loop_test(t, a_support_that_hardly_moves_changes_no_hit, 0, 2);
     tcase_add_loop_test(t, a_restitution_changes_no_lift_by_a_support, 0, 6);
     tcase_add_test(t, a_support_that_is_gone_leaves_no_force_to_a_bolt);
     return s;
