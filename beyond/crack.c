@@ -289,7 +289,7 @@ bbm_pass bbm_break_bonds(bbm_model *m)
         for (int b = 0; b < m->bonds; b++)
             most = fmax(most, find_load(m, b));
         y->overload = most;
-        m->detections = most > 1 && bbm_moved_too_far(m) ? 0 : m->detections;   /* list anew    */
+        m->detections = most > 1 && bbm_moved_too_far(m) ? 0 : m->detections;   /* 0: list anew */
         if (most == 1 || m->detections == 0 || (isinf(m->par.dt) && !bbm_is_static(m)))
             return BBM_PASS_DONE;
         for (int b = 0; b < m->bonds; b++)

@@ -540,7 +540,7 @@ START_TEST(what_is_held_on_its_way_stands)
 }
 END_TEST
 
-/* A stone on a floor or a belt, which restitution gives nothing back to; with `cut`, in cut steps. */
+/* A stone that lies on a floor or a belt; with `cut` it moves in cut steps. E < 0: no restitution. */
 static bbm_model *stone_on_belt(double E, int cut)
 {
     bbm_model *m = hard_blocks(E, 40);
@@ -579,7 +579,8 @@ START_TEST(what_a_support_moves_evenly_moves_evenly)
 }
 END_TEST
 
-/* Without a restitution the springs along the belt sway on, as on a floor that does not move: Galilei. */
+/* Without a restitution the stone sways on the springs along the belt, just as one that comes from the other side does on a
+ * floor. */
 START_TEST(a_belt_moves_a_stone_as_a_floor_stops_one)
 {
     const double weight = 0.5 * DENSITY * GRAVITY;
