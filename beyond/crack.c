@@ -267,11 +267,12 @@ static int find_loose(const bbm_model *m)
 
 /* Once all has settled: asks for another pass if a bond pushes that did not, or breaks the bonds
  * that bear the most of their strength, if they bear more than all of it. Steps from rest, with
- * which statics looks for an equilibrium, break none: it finds none with such an overload. */
+ * which statics looks for an equilibrium, break none: it finds none with such an overload. Nor does
+ * a solution that moves farther than the list of contacts reaches. Its contacts are listed as if
+ * for the first time, so that the step goes on even if the new list is the same. */
 bbm_pass bbm_break_bonds(bbm_model *m)
 {
     bbm_beyond *y = m->beyond;
-    double most = 1;
 
     if (y->bond_tension <= 0)
         return BBM_PASS_DONE;
@@ -286,14 +287,15 @@ bbm_pass bbm_break_bonds(bbm_model *m)
                 *best = fmax(*best, c->across);
             }
         }
+        y->overload = 1;
         for (int b = 0; b < m->bonds; b++)
-            most = fmax(most, find_load(m, b));
-        y->overload = most;
-        m->detections = most > 1 && bbm_moved_too_far(m) ? 0 : m->detections;   /* 0: list anew */
-        if (most == 1 || m->detections == 0 || (isinf(m->par.dt) && !bbm_is_static(m)))
+            y->overload = fmax(y->overload, find_load(m, b));
+        if (y->overload > 1 && bbm_moved_too_far(m))
+            m->detections = 0;
+        if (y->overload == 1 || m->detections == 0 || (isinf(m->par.dt) && !bbm_is_static(m)))
             return BBM_PASS_DONE;
         for (int b = 0; b < m->bonds; b++)
-            if (find_load(m, b) >= most * (1 - SAME))
+            if (find_load(m, b) >= y->overload * (1 - SAME))
                 damage(m, b);
         m->scratch->passes = m->scratch->one_until = 0;
         y->breaks++;

@@ -183,10 +183,12 @@ START_TEST(the_pictures_of_the_readme_are_what_the_programs_draw)
     static const struct { const char *shown, *drawn; int most; } picture[] = {
         { "doc/arch.svg", "out/folds/movie.svg", 200000 },
         { "doc/beam.svg", "out/exp1/deformed.svg", 400000 },
+        { "doc/wedge.svg", "out/splits/movie.svg", 300000 },
     };
 
     ck_assert_int_ne(shell("%s/bbm -q cases/models/arch.model -d t=1 -d steps=220 -o out/folds > "
                            "out/folds.log", BUILD), 0);
+    ck_assert_int_eq(shell("%s/bbm -q cases/models/wedge.model -o out/splits > out/splits.log", BUILD), 0);
     for (int k = 0; k < COUNT(picture); k++) {
         const char *shown = picture[k].shown, *drawn = picture[k].drawn;
         ck_assert_msg(shell("cmp %s %s >&2", shown, drawn) == 0, "copy %s to %s", drawn, shown);

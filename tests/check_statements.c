@@ -90,7 +90,6 @@ START_TEST(what_has_no_limit_is_said)
 END_TEST
 
 /* What runs, and is hardly meant: the line that takes the place of one of these, and what is said. */
-#define TWO ROCK "block base rock 0 0 10 0 10 1 0 1\nfixblock base\n"
 #define STONE TWO "block stone rock 4 1 5 1 5 2 4 2\n"
 #define REST "gravity 0 -9.81\ndynamic dt 0.01 steps 2\ncontact friction 30\n"
 #define SLABS(ledge, round) ROCK "block a rock 0 0 2 0 2 1 0 1\nblock b rock 2 0 4 0 4 " ledge " 2 " ledge "\nfixblock a\nfixblock b\n" \

@@ -94,10 +94,6 @@ START_TEST(the_two_joints_of_a_wedge_hold_it)
 }
 END_TEST
 
-/* What runs, and is hardly meant: the line that takes the place of one of these, and what is said. */
-#define TWO ROCK "block base rock 0 0 10 0 10 1 0 1\nfixblock base\n"
-#define STONE TWO "block stone rock 4 1 5 1 5 2 4 2\n"
-
 /* The mean stress of the 24 equal triangles of a row of cells is the weight above its middle; one
  * alone is within 2 % of rho g h of the weight above its own. */
 START_TEST(each_row_of_a_resting_block_carries_those_above)
@@ -420,7 +416,7 @@ END_TEST
 /* Its corners sink by W/(2 kn), 0.123 of its size. */
 START_TEST(what_sinks_too_deep_in_statics_says_so)
 {
-    ck_assert_int_eq(run_text("deep", STONE "contact friction 30 kn 1e5\ngravity 0 -9.81\nstatic\n"), 1);
+    ck_assert_int_eq(run_text("deep", TWO "block stone rock 4 1 5 1 5 2 4 2\ncontact friction 30 kn 1e5\ngravity 0 -9.81\nstatic\n"), 1);
     check_text("out/model/deep.err", "the contacts are too soft: step 1: a corner of block 'stone'");
 }
 END_TEST

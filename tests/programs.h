@@ -27,6 +27,7 @@ double cell(const char *name, const char *file, const char *row, const char *col
 double sum(const char *name, const char *file, const char *column, const char *part);
 
 #define ROCK "material rock E 1e10 nu 0.25 density 2500\n"
+#define TWO ROCK "block base rock 0 0 10 0 10 1 0 1\nfixblock base\n"
 #define STEEL "material steel E 2e11 nu 0.3 density 7800 thickness 0.5\n"
 
 #endif
